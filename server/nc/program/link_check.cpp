@@ -13,6 +13,7 @@
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/parameter.hpp"
+#include "nc/program/system_addresses.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -108,6 +109,30 @@ class BlockCheck {
                          "sign",
                          *angle, is_left ? '+' : '-'));
     }
+  }
+
+  /// The data of FN 17 or FN 18 must be those that this control has.
+  void check_system_data(const klartext::Expr& address, bool writes) {
+    const auto* node = std::get_if<klartext::NodeIndex>(&address);
+    const auto op = writes ? klartext::Operator::SystemAddress : klartext::Operator::SystemRead;
+    if (node == nullptr || program_.node(*node).op != op) return;
+    const auto operands = program_.operands(*node);
+    const auto whole = [&](std::size_t i) {
+      const auto* value = i < operands.size() ? std::get_if<double>(&operands[i]) : nullptr;
+      constexpr double kLargest = 1e9;
+      return value == nullptr
+                 ? std::nullopt
+                 : std::optional(static_cast<int>(std::clamp(*value, -kLargest, kLargest)));
+    };
+    const auto id = whole(0);
+    const auto number = whole(1);
+    if (!id || has_system_data(*id, number, writes)) return;
+    const bool has_id = has_system_data(*id, std::nullopt, writes);
+    report(
+        Severity::Warning, DiagnosticCode::FeatureUnsupported, block_.written,
+        fmt::format("FN {}: ID{}{} is not available here: the run fails when it reaches this "
+                    "block",
+                    writes ? 17 : 18, *id, has_id && number ? fmt::format(" NR{}", *number) : ""));
   }
 
   void check_part(std::uint32_t index) {
@@ -335,6 +360,10 @@ void check_block(const klartext::Program& program, std::uint32_t index,
     check.check_words(stop->words);
   } else if (const auto* call = std::get_if<klartext::CycleCall>(&block.statement)) {
     check.check_words(call->words);
+  } else if (const auto* assignment = std::get_if<klartext::Assignment>(&block.statement)) {
+    check.check_system_data(assignment->value, false);
+  } else if (const auto* write = std::get_if<klartext::SystemWrite>(&block.statement)) {
+    check.check_system_data(write->address, true);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "nc/program/system_addresses.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/tool_values.hpp"
 #include "nc/run/values.hpp"
@@ -357,6 +358,7 @@ NcResult<void> write_preset(Channel& channel, const Address& address, double val
 
 NcResult<double> read_system_data(Channel& channel, klartext::NodeIndex node) {
   const auto address = TRY(read_address(channel, node));
+  if (!has_system_data(address.id, address.nr, false)) return unknown(address);
   if (address.id == 500) return datum_data(channel, address);
   if (address.id == 502 || address.id == 503)
     return preset_data(channel.machine().state(), address);
@@ -372,6 +374,7 @@ NcResult<double> read_system_data(Channel& channel, klartext::NodeIndex node) {
 
 NcResult<void> write_system_data(Channel& channel, klartext::NodeIndex node, double value) {
   const auto address = TRY(read_address(channel, node));
+  if (!has_system_data(address.id, address.nr, true)) return unknown(address);
   switch (address.id) {
     case 50: return write_tool(channel, address, value);
     case 500: {

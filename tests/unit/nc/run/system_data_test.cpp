@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include "nc/program/system_addresses.hpp"
 #include "run_fixture.hpp"
 
 namespace fitgauge::interpreter {
@@ -6,6 +9,7 @@ namespace {
 /// The value that `FN 18: SYSREAD` gives after `before` ran, or the outcome of a failed run.
 std::string system_data(std::string_view address, std::string_view before = "Q1 = 0") {
   Control control;
+  control.setup.features = {machine::Block{{-50, -50, -40}, {50, 50, 0}}};
   machine::ProbeRow& probe = control.setup.machine.probes[0].row;
   probe.distance = 17;
   probe.cal_of1 = 0.25;
@@ -44,6 +48,41 @@ TEST_CASE("FN 18 reads the state of the machine") {
   CHECK(system_data("ID350 NR56 IDX1", "TOOL CALL 30 Z") == "17");
   CHECK(system_data("ID503 NR1 IDX1") == "0");
   CHECK(system_data("ID505 NR1") == "0");
+}
+
+TEST_CASE("FN 18 answers every number that the check takes for available") {
+  for (const SystemGroup& group : system_groups()) {
+    for (const int number : group.numbers) {
+      const std::string address = fmt::format("ID{} NR{} IDX{}", group.id, number,
+                                              group.id == 50   ? 30
+                                              : group.id == 10 ? 200
+                                                               : 1);
+      const std::string answer = system_data(
+          address,
+          "QS200 = \"a.h\"\nTOOL CALL 30 Z S1000\nL Z+300 FMAX\nTCH PROBE 0.0 REF. PLANE Q7 Z-\n"
+          "TCH PROBE 0.1 X+10 Y+10 Z+5\nCYCL DEF 200 DRILLING Q200=2 Q201=-5 Q206=100 Q202=5 "
+          "Q203=0 Q204=50");
+      CHECK_MESSAGE(answer.find("failed") == std::string::npos, address, ": ", answer);
+    }
+  }
+}
+
+TEST_CASE("the check names system data that this control lacks") {
+  const auto found = [](std::string_view block) {
+    Control control;
+    control.program(block);
+    const auto diagnostics = control.diagnostics();
+    return diagnostics.empty() ? std::string() : diagnostics[0].message;
+  };
+  const std::string fails = " is not available here: the run fails when it reaches this block";
+  CHECK(found("FN 18: SYSREAD Q1 = ID9999 NR1") == "FN 18: ID9999" + fails);
+  CHECK(found("FN 18: SYSREAD Q1 = ID9999 NRQ3") == "FN 18: ID9999" + fails);
+  CHECK(found("FN 18: SYSREAD Q1 = ID20 NR77 IDX1") == "FN 18: ID20 NR77" + fails);
+  CHECK(found("FN 17: SYSWRITE ID20 NR1 = 5") == "FN 17: ID20" + fails);
+  CHECK(found("FN 17: SYSWRITE ID50 NR24 IDX30 = 5") == "FN 17: ID50 NR24" + fails);
+  CHECK(found("FN 17: SYSWRITE ID50 NR4 IDX30 = 5") == "");
+  CHECK(found("FN 18: SYSREAD Q1 = ID503 NR7777 IDX1") == "");
+  CHECK(found("FN 18: SYSREAD Q1 = IDQ7 NR1") == "");
 }
 
 TEST_CASE("FN 17 writes every column of a tool that FN 18 reads") {

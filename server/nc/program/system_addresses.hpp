@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+namespace fitgauge::interpreter {
+
+/// An ID of FN 18: SYSREAD, and its NR; none listed: the NR is a row.
+struct SystemGroup {
+  int id = 0;
+  std::span<const int> numbers;
+  bool is_written = false;  ///< FN 17: SYSWRITE too
+};
+
+std::span<const SystemGroup> system_groups();
+
+/// Whether this control has system data; without a number, whether it has any of the ID.
+bool has_system_data(int id, std::optional<int> number, bool writes);
+
+}  // namespace fitgauge::interpreter
