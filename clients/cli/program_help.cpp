@@ -126,11 +126,26 @@ std::size_t columns_of(const klartext::Program& tree, const klartext::Expr& cell
   return 1 + static_cast<std::size_t>(std::ranges::count(written, ','));
 }
 
+/// The parameter that a sub-line names for the results of its cycle, and their number.
+std::pair<klartext::QRef, std::size_t> set_by(const klartext::Program& tree,
+                                              const klartext::CyclePart& part) {
+  const auto* cycle = find_descriptor(part.family, part.number);
+  const auto* result = cycle == nullptr ? nullptr : cycle->find(probing::ParameterId::WordResult);
+  for (const klartext::Word& word : tree.view(part.words)) {
+    const auto* first = std::get_if<klartext::QRef>(&word.value);
+    if (result == nullptr || first == nullptr || word.letter != klartext::Letter::Result) continue;
+    const double last = klartext::parameter_count(klartext::QSpace::Q) - 1;
+    return {*first, 1 + static_cast<std::size_t>(last - std::min(last, result->range.max))};
+  }
+  return {};
+}
+
 /// Returns the first parameter that a block sets, and their number.
 std::pair<klartext::QRef, std::size_t> set_by(const klartext::Program& tree,
                                               const klartext::Statement& statement) {
   if (const auto* one = std::get_if<klartext::Assignment>(&statement)) return {one->target, 1};
   if (const auto* one = std::get_if<klartext::SetUndefined>(&statement)) return {one->target, 1};
+  if (const auto* part = std::get_if<klartext::CyclePart>(&statement)) return set_by(tree, *part);
   constexpr std::size_t kCircle = 3;  // centre and radius
   if (const auto* data = std::get_if<klartext::CircleData>(&statement))
     return {data->target, kCircle};
@@ -162,6 +177,28 @@ std::string parameter_hover(const EditedText& text, std::size_t line, klartext::
     shown += fmt::format("{}: `{}`\n\n", at, first_characters(trim(text.line(at - 1)), 80));
   }
   return shown.empty() ? shown : fmt::format("**{}**\n\n{}", name, shown);
+}
+
+/// A setting in sub-lines, and what a code of DIN/ISO is in Klartext.
+std::string setting_hover(const EditedText& text, std::size_t line) {
+  const klartext::Program& tree = text.tree();
+  std::string blocks;
+  const klartext::CyclePart* part = nullptr;
+  for (const klartext::Block& block : tree.blocks()) {
+    const SourceRange range = tree.range(block.written);
+    if (range.begin.line > line + 1 || range.end.line < line + 1) continue;
+    const auto* sub_line = std::get_if<klartext::CyclePart>(&block.statement);
+    if (part == nullptr) part = sub_line;
+    if (text.is_iso() && sub_line != nullptr)
+      blocks += fmt::format("`{}`\n\n", klartext::print_statement(tree, block));
+  }
+  if (part == nullptr) return {};
+  if (const auto* cycle = find_descriptor(part->family, part->number))
+    return blocks + cycle_hover(*cycle);
+  const auto* setting = interpreter::dotted_setting(part->number);
+  if (setting == nullptr) return blocks;
+  return fmt::format("**CYCL DEF {} {}** {}\n\n{}", part->number, setting->name, setting->meaning,
+                     blocks);
 }
 
 /// Whether a line may be in a cycle when its parameter is complete: `Q262=+25`, `Q26`, or nothing.
@@ -307,8 +344,8 @@ std::optional<WrittenParameter> parameter_at(const EditedText& text, Place place
 std::string hover_text(const EditedText& text, Place place) {
   const auto cycle = cycle_at(text, place.line);
   const auto written = parameter_at(text, place);
-  if (!written)
-    return cycle && cycle->first_line == place.line ? cycle_hover(*cycle->cycle) : std::string();
+  if (!written && cycle && cycle->first_line == place.line) return cycle_hover(*cycle->cycle);
+  if (!written) return setting_hover(text, place.line);
   if (!written->is_cycles || !cycle) return parameter_hover(text, place.line, written->parameter);
   const auto* known = interpreter::find_parameter(*cycle->cycle, written->parameter);
   if (known == nullptr) return {};

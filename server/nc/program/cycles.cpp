@@ -13,7 +13,17 @@
 namespace fitgauge::interpreter {
 namespace {
 
-constexpr std::array kDotted{7, 8, 9, 10, 11, 12, 13, 19, 26, 32};
+constexpr DottedSetting kDotted[] = {
+    {7, "DATUM SHIFT", "moves the datum along the axes, or by row # of the datum table"},
+    {8, "MIRROR IMAGE", "mirrors the axes that it names; without an axis it ends"},
+    {9, "DWELL TIME", "waits for the seconds"},
+    {10, "ROTATION", "turns the coordinates to ROT; IROT adds to it"},
+    {11, "SCALING", "multiplies lengths by SCL"},
+    {12, "PGM CALL", "makes the program a cycle for CYCL CALL, M99 and M89"},
+    {13, "ORIENTATION", "turns the spindle to ANGLE with M19"},
+    {19, "WORKING PLANE", "tilts the working plane to A, B and C"},
+    {26, "AXIS-SPEC. SCALING", "multiplies lengths by a factor for each axis"},
+    {32, "TOLERANCE", "allows the path to deviate by T"}};
 
 namespace usual = probing::parameter;
 using probing::CycleDescriptor;
@@ -136,15 +146,16 @@ const probing::TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int 
                              number);
 }
 
-bool is_dotted_cycle(int number) {
-  return std::find(kDotted.begin(), kDotted.end(), number) != kDotted.end();
+const DottedSetting* dotted_setting(int number) {
+  const auto* found = std::ranges::find(kDotted, number, &DottedSetting::number);
+  return found == std::end(kDotted) ? nullptr : found;
 }
 
 bool is_available(klartext::CycleFamily family, int number, bool dotted) {
   if (const auto* cycle = probing_cycle(family, number)) return cycle->descriptor.dotted == dotted;
   if (family == klartext::CycleFamily::TchProbe) return false;
   if (const auto* cycle = machining_cycle(number)) return cycle->descriptor.dotted == dotted;
-  return dotted && is_dotted_cycle(number);
+  return dotted && dotted_setting(number) != nullptr;
 }
 
 const CycleDescriptor* global_definition(int number) {

@@ -54,8 +54,14 @@ const probing::CycleDescriptor* other_cycle(const probing::CycleDescriptor& cycl
 /// The cycle of the probing library, or null.
 const probing::TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number);
 
-/// 7 to 13, 19, 26, 32: `CYCL DEF 7.0`, `7.1`.
-bool is_dotted_cycle(int number);
+/// A setting in sub-lines: `CYCL DEF 7.0`, `7.1`.
+struct DottedSetting {
+  int number;
+  std::string_view name;
+  std::string_view meaning;
+};
+/// 7 to 13, 19, 26, 32; null for another.
+const DottedSetting* dotted_setting(int number);
 
 /// Whether a block of that cycle can run: cycles of the probing library, the coordinate
 /// transformations written in sub-lines, and machining cycles as motion can.

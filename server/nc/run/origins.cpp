@@ -77,7 +77,7 @@ bool sets_datum(const Program&, const Block& block) {
   if (as<klartext::Trans>(block) != nullptr || as<klartext::Plane>(block) != nullptr) return true;
   if (const auto* part = as<klartext::CyclePart>(block))
     return part->part > 0 && part->family == klartext::CycleFamily::CyclDef &&
-           is_dotted_cycle(part->number) && part->number != 9 && part->number != 32;
+           dotted_setting(part->number) != nullptr && part->number != 9 && part->number != 32;
   using enum probing::CycleKind;
   const auto* known = descriptor_of(block);
   return known != nullptr &&

@@ -100,6 +100,23 @@ class Editing(LanguageTest):
                     shown = self.at("hover", name, next(each for each in body if parameter in each), parameter)["result"]["contents"]["value"]
                     self.assertEqual(re.findall(r"^(\d+): `(.*)`$", shown, re.M), [(str(n), body[n - 2]) for n in lines])
 
+    def test_hover_shows_settings_and_probing_in_sub_lines(self):
+        klartext = ["TCH PROBE 0.0 REF. PLANE Q5 X-", "TCH PROBE 0.1 X+5 Y+0 Z-5", "TCH PROBE 3.0 MEASURING", "TCH PROBE 3.1 Q1",
+                    "TCH PROBE 3.2 X ANGLE: +15", "TCH PROBE 3.3 ABST +10 F100 MB1", "Q9 = Q5 + Q4", "CYCL DEF 7.0 DATUM SHIFT", "CYCL DEF 7.1 X+1"]
+        self.client.open("a.h", "BEGIN PGM A MM\n" + "\n".join(klartext) + "\nEND PGM A MM\n")
+        shown = lambda name, line, at=None: self.at("hover", name, line, *([at] if at else []))["result"]["contents"]["value"]
+        self.assertIn("2: `TCH PROBE 0.0 REF. PLANE Q5 X-`", shown("a.h", "Q9 =", "Q5"))
+        self.assertIn("5: `TCH PROBE 3.1 Q1`", shown("a.h", "Q9 =", "Q4"))
+        self.assertIn("2: `TCH PROBE 0.0 REF. PLANE Q5 X-`", shown("a.h", "TCH PROBE 0.0", "Q5"))
+        for line in ("CYCL DEF 7.0", "CYCL DEF 7.1"):
+            self.assertIn("**CYCL DEF 7 DATUM SHIFT** moves the datum", shown("a.h", line))
+        iso = ["N1 G55 P01 5 P02 X- P03 X+5 Y+0 Z-5 *", "N2 G54 X+1 *", "N3 G73 H+30 *", "N4 D00 Q1 P01 +Q5 *"]
+        self.client.open("a.i", "%A G71 *\n" + "\n".join(iso) + "\nN99999999 %A G71 *\n")
+        self.assertIn("**TCH PROBE 0 REF. PLANE**", shown("a.i", "G55"))
+        self.assertIn("2: `N1 G55 P01 5", shown("a.i", "N4 ", "Q5"))
+        self.assertIn("`CYCL DEF 7.1 X+1`", shown("a.i", "G54"))
+        self.assertIn("**CYCL DEF 10 ROTATION**", shown("a.i", "G73"))
+
     def test_completion_writes_a_cycle_that_only_lacks_values(self):
         for name, head, frame_of in (("a.h", "TCH PROBE 42", "BEGIN PGM A MM\nTOOL CALL 1 Z\n{}\nEND PGM A MM\n"),
                                      ("a.i", "G42", "%A G71 *\nN5 T1 G17 *\nN10 {} *\nN99999999 %A G71 *\n")):
