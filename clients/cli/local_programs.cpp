@@ -32,20 +32,39 @@ constexpr Code kCodes[] = {
 #include "nc/klartext/diagnostic_codes.inc"
 };
 
-JsonObject sarif_place(std::string uri, SourceRange range) {
+JsonObject sarif_region(SourceRange range) {
   JsonObject region;
   region.add_raw("startLine", std::to_string(std::max(range.begin.line, 1U)));
   region.add_raw("startColumn", std::to_string(std::max(range.begin.column, 1U)));
+  return region;
+}
+
+std::string sarif_artifact(std::string uri) {
   std::ranges::replace(uri, '\\', '/');
+  return fmt::format(R"({{"uri":{}}})", json_quoted(percent_encoded(uri, "/:")));
+}
+
+JsonObject sarif_place(const std::string& uri, SourceRange range) {
   JsonObject place;
-  place.add_raw("physicalLocation",
-                fmt::format(R"({{"artifactLocation":{{"uri":{}}},"region":{}}})",
-                            json_quoted(percent_encoded(uri, "/:")), region.text()));
+  place.add_raw("physicalLocation", fmt::format(R"({{"artifactLocation":{},"region":{}}})",
+                                                sarif_artifact(uri), sarif_region(range).text()));
   return place;
 }
 
 std::string sarif_message(const std::string& text) {
   return fmt::format(R"({{"text":{}}})", json_quoted(text));
+}
+
+std::string sarif_fix(const Diagnostic& found, const klartext::DiagnosticRemedy& remedy) {
+  std::string changes;
+  for (const auto& [range, by] : remedy.edits)
+    changes += fmt::format(
+        R"({}{{"deletedRegion":{},"insertedContent":{}}})", changes.empty() ? "" : ",",
+        sarif_region(range).add_raw("endColumn", std::to_string(range.end.column)).text(),
+        sarif_message(by));
+  return fmt::format(
+      R"({{"description":{},"artifactChanges":[{{"artifactLocation":{},"replacements":[{}]}}]}})",
+      sarif_message(remedy.title), sarif_artifact(found.program), changes);
 }
 
 std::string sarif_of(const Diagnostic& found) {
@@ -60,6 +79,11 @@ std::string sarif_of(const Diagnostic& found) {
     others += (others.empty() ? "" : ",") + place.text();
   }
   if (!others.empty()) result.add_raw("relatedLocations", "[" + others + "]");
+  std::string fixes;
+  for (const klartext::DiagnosticRemedy& remedy : found.remedies) {
+    if (!remedy.edits.empty()) fixes += (fixes.empty() ? "" : ",") + sarif_fix(found, remedy);
+  }
+  if (!fixes.empty()) result.add_raw("fixes", "[" + fixes + "]");
   return result.text();
 }
 

@@ -14,7 +14,7 @@ struct Remedy {
   bool is_preferred = true;
 };
 
-/// The remedies that the message of a finding names; for a warning or note also a comment that
+/// The remedies of a finding and those of its code; for a warning or note also a comment that
 /// silences it.
 std::vector<Remedy> remedies(const EditedText& text, const klartext::Diagnostic& found);
 

@@ -81,6 +81,7 @@ std::string_view frame_message(DiagnosticCode code) {
 
 void set_place(Diagnostic& diagnostic, const Program& program, Slice<char> place) {
   diagnostic.range = program.range(place);
+  diagnostic.remedies.clear();  // in the words of Klartext
   if (diagnostic.range.end.line != diagnostic.range.begin.line)
     diagnostic.range.end = diagnostic.range.begin;
   diagnostic.source =

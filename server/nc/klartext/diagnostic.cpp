@@ -71,7 +71,7 @@ std::string render(const Diagnostic& diagnostic) {
 
 void DiagnosticList::add(Severity severity, DiagnosticCode code, Slice<char> place,
                          std::string message, std::optional<std::uint32_t> block,
-                         bool is_unreadable) {
+                         bool is_unreadable, const std::string& instead) {
   if (kept_.size() == kMostDiagnostics) {
     ++dropped_;
     worst_dropped_ = std::max(worst_dropped_, severity);
@@ -89,6 +89,8 @@ void DiagnosticList::add(Severity severity, DiagnosticCode code, Slice<char> pla
                    .block = block,
                    .source = std::string(shown(line_of(source_, line_starts_, begin.line))),
                    .is_unreadable = is_unreadable});
+  if (!instead.empty())
+    kept_.back().remedies.push_back({"Write " + instead, {{kept_.back().range, instead}}});
 }
 
 std::vector<Diagnostic> DiagnosticList::take() {

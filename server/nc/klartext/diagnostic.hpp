@@ -39,6 +39,19 @@ struct DiagnosticNote {
   friend bool operator==(const DiagnosticNote&, const DiagnosticNote&) = default;
 };
 
+/// A change of the file, within one physical line.
+struct DiagnosticEdit {
+  SourceRange range{};
+  std::string by{};
+};
+
+/// A way to put a finding right.
+struct DiagnosticRemedy {
+  std::string title{};
+  std::vector<DiagnosticEdit> edits{};
+  bool is_preferred = true;
+};
+
 /// One finding about a program or mask.
 struct Diagnostic {
   Severity severity = Severity::Error;
@@ -50,6 +63,7 @@ struct Diagnostic {
   std::string source{};                  ///< the physical line
   bool is_unreadable = false;            ///< the line is not Klartext and becomes an ERROR block
   std::vector<DiagnosticNote> notes{};
+  std::vector<DiagnosticRemedy> remedies{};
 };
 
 /// Returns whether one of them refuses the text.
@@ -67,8 +81,10 @@ class DiagnosticList {
                  std::string program)
       : source_(source), line_starts_(line_starts), program_(std::move(program)) {}
 
+  /// @param instead the text that is right in this place; empty: not known
   void add(Severity severity, DiagnosticCode code, Slice<char> place, std::string message,
-           std::optional<std::uint32_t> block = std::nullopt, bool is_unreadable = false);
+           std::optional<std::uint32_t> block = std::nullopt, bool is_unreadable = false,
+           const std::string& instead = {});
 
   /// Returns the findings. If there were too many, the last one has the number of missing findings,
   /// and is an error if a missing one is.

@@ -44,9 +44,8 @@ std::string without_tail(std::string text) {
   return text;
 }
 
-/// Returns "; did you mean CALL?" for CALLL if CALL is expected; otherwise nothing. The words in
-/// capitals in `expected` are keywords.
-std::string similar_word(std::string_view expected, std::string_view found) {
+/// CALL for CALLL if CALL is expected. The words in capitals in `expected` are keywords.
+SpellingHint similar_word(std::string_view expected, std::string_view found) {
   SpellingHint hint(found);
   const auto is_capital = [](char c) { return is_ascii_letter(c) && c == ascii_upper(c); };
   const char* const end = expected.data() + expected.size();
@@ -56,7 +55,7 @@ std::string similar_word(std::string_view expected, std::string_view found) {
     const std::string_view keyword(word, static_cast<std::size_t>(at - word));
     if (std::all_of(word, at, is_capital)) hint.consider(keyword);
   }
-  return hint.text();
+  return hint;
 }
 
 }  // namespace
@@ -67,8 +66,9 @@ void Lexer::open(std::size_t begin, std::size_t end) {
   failure_.reset();
 }
 
-void Lexer::fail(DiagnosticCode code, Slice<char> place, std::string message) {
-  if (!failure_) failure_ = Failure{Failure::Kind::Faulty, code, place, std::move(message)};
+void Lexer::fail(DiagnosticCode code, Slice<char> place, std::string message, std::string instead) {
+  if (!failure_)
+    failure_ = Failure{Failure::Kind::Faulty, code, place, std::move(message), std::move(instead)};
   at_ = end_;
 }
 
@@ -88,14 +88,18 @@ void Lexer::fail_expected(std::string_view what) {
     return;
   }
   const std::string_view found(at_, static_cast<std::size_t>(word_end - at_));
+  const SpellingHint hint = similar_word(what, found);
   fail(DiagnosticCode::SyntaxError, place(at_, word_end),
-       fmt::format("expected {}, found '{}'{}", what, excerpt(found), similar_word(what, found)));
+       fmt::format("expected {}, found '{}'{}", what, excerpt(found), hint.text()), hint.word());
 }
 
 void Lexer::refuse(const char* begin, std::string_view feature) {
   if (!failure_) {
-    failure_ = Failure{Failure::Kind::Unsupported, DiagnosticCode::FeatureUnsupported,
-                       place(begin, at_), std::string(feature)};
+    failure_ = Failure{Failure::Kind::Unsupported,
+                       DiagnosticCode::FeatureUnsupported,
+                       place(begin, at_),
+                       std::string(feature),
+                       {}};
   }
   at_ = end_;
 }

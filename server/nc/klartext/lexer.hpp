@@ -73,7 +73,8 @@ struct Failure {
   Kind kind = Kind::Faulty;
   DiagnosticCode code = DiagnosticCode::SyntaxError;
   Slice<char> place;
-  std::string message;  ///< of Unsupported: the feature's name
+  std::string message;    ///< of Unsupported: the feature's name
+  std::string instead{};  ///< the text that is right in this place, if known
 };
 
 /// Reads the characters of one block at a time. Refers to the source, which must end with a NUL
@@ -92,7 +93,7 @@ class Lexer {
   void extend(std::size_t end) { end_ = source_.data() + end; }
 
   const std::optional<Failure>& failure() const { return failure_; }
-  void fail(DiagnosticCode code, Slice<char> place, std::string message);
+  void fail(DiagnosticCode code, Slice<char> place, std::string message, std::string instead = {});
   /// Fails at the next character: "expected <what>, found 'x'".
   void fail_expected(std::string_view what);
   /// The block uses a feature that only real controls have, named by the code since `begin`.

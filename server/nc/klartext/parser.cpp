@@ -121,7 +121,7 @@ void Parser::report_failure(Block& block, const char* body) {
     std::string message = failure.message;
     if (!begun_) message += "; a program begins with BEGIN PGM name MM, or INCH";
     diagnostics_.add(Severity::Error, failure.code, failure.place, std::move(message), block.number,
-                     failure.code != DiagnosticCode::ContinuationMissing);
+                     failure.code != DiagnosticCode::ContinuationMissing, failure.instead);
     block.statement = ErrorBlock{in_.add_text(raw)};
     return;
   }

@@ -99,11 +99,11 @@ bool at_c_axis(BlockReader& in, std::string_view name) {
          (in.peek() == '+' || in.peek() == '-' || in.at_number() || in.at_parameter());
 }
 
-/// "; did you mean CYCL?" for CYCLE, or nothing.
-std::string similar_keyword(std::string_view name) {
+/// CYCL for CYCLE.
+SpellingHint similar_keyword(std::string_view name) {
   SpellingHint hint(name);
   for (const Keyword& keyword : kBlockKeywords) hint.consider(keyword.name);
-  return hint.text();
+  return hint;
 }
 
 }  // namespace
@@ -151,8 +151,9 @@ Statement parse_statement(BlockReader& in) {
   if (name.empty()) {
     in.fail_expected("a block");
   } else {
+    const SpellingHint hint = similar_keyword(name);
     in.fail(DiagnosticCode::BlockUnknown, in.place(begin, begin + name.size()),
-            fmt::format("no block begins with '{}'{}", excerpt(name), similar_keyword(name)));
+            fmt::format("no block begins with '{}'{}", excerpt(name), hint.text()), hint.word());
   }
   return Empty{};
 }

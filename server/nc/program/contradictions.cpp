@@ -215,9 +215,14 @@ class Contradictions {
                        "one of these",
                        number, last_measured_->number, given),
            block);
-      if (before < diagnostics_.size())
-        diagnostics_.back().notes.push_back(
-            {fmt::format("cycle {}", last_measured_->number), program_.range(measuring_->written)});
+      if (before == diagnostics_.size()) continue;
+      klartext::Diagnostic& found = diagnostics_.back();
+      found.notes.push_back(
+          {fmt::format("cycle {}", last_measured_->number), program_.range(measuring_->written)});
+      for (const auto& result : last_measured_->results)
+        found.remedies.push_back(
+            {fmt::format("Read Q{}: {}", result.q, result.meaning),
+             replacements(found, fmt::format("Q{}", number), fmt::format("Q{}", result.q)), false});
     }
   }
 
@@ -314,7 +319,8 @@ class Contradictions {
   }
 
   /// At that of two numbers that is written last, but not in the cycle if the other is not.
-  void contradicts(const FollowedValue& a, const FollowedValue& b, std::string message) {
+  void contradicts(const FollowedValue& a, const FollowedValue& b, std::string message,
+                   bool exchanges = false) {
     const FollowedValue& at = b.block != block_ && (a.block == block_ || b.block > a.block) ? b : a;
     const auto is_same = [&](const auto& found) { return found.message == message; };
     if (is_called_ && (at.block == block_ || std::ranges::any_of(diagnostics_, is_same))) return;
@@ -323,6 +329,7 @@ class Contradictions {
     if (before == diagnostics_.size()) return;
     klartext::Diagnostic& found = diagnostics_.back();
     const FollowedValue& behind = &at == &a ? b : a;
+    if (exchanges) add_exchange(found, at, behind);
     const SourceRange other = program_.range(behind.place);
     if (other.begin.line != found.range.begin.line)
       found.notes.push_back({"the other number", other, {}});
@@ -330,6 +337,20 @@ class Contradictions {
       found.notes.push_back({"the cycle that reads it",
                              diagnose(program_, *block_, Severity::Note, found.code, {}).range,
                              {}});
+  }
+
+  /// The remedy for two numbers; for one, its minus.
+  void add_exchange(klartext::Diagnostic& found, const FollowedValue& a, const FollowedValue& b) {
+    auto one = written_number(program_, a.place);
+    auto two = written_number(program_, b.place);
+    if (!one || !two) return;
+    if (&a == &b) {
+      one->by = "-" + one->by.substr(one->by.find_first_not_of('+'));
+      found.remedies.push_back({"Write it with a minus", {*one}});
+    } else {
+      std::swap(one->by, two->by);
+      found.remedies.push_back({"Exchange the two numbers", {*one, *two}});
+    }
   }
 
   void check_order(const klartext::Cycle& cycle, const CycleDescriptor& descriptor) {
@@ -357,7 +378,8 @@ class Contradictions {
         continue;
       contradicts(values[upper], values[lower],
                   fmt::format("the maximum Q{} = {} lies below the minimum Q{} = {}: exchange them",
-                              upper, value(upper), lower, value(lower)));
+                              upper, value(upper), lower, value(lower)),
+                  true);
     }
     for (const auto& [nominal, limit] : kLimitsOfSize) {
       const bool is_tolerance = limit == 279 || limit == 280;
@@ -386,7 +408,8 @@ class Contradictions {
     if (!is_probing && values.contains(201) && value(201) > 0) {
       contradicts(values[201], values[201],
                   fmt::format("the depth Q201 = {} lies above the surface: write it with a minus",
-                              value(201)));
+                              value(201)),
+                  true);
     }
   }
 

@@ -79,6 +79,53 @@ Diagnostic diagnose(const klartext::Program& program, const klartext::Block& blo
           std::string(program.line(range.begin.line))};
 }
 
+std::vector<klartext::DiagnosticEdit> replacements(const Diagnostic& found, std::string_view wrong,
+                                                   std::string_view right) {
+  std::vector<klartext::DiagnosticEdit> edits;
+  const std::string line = ascii_upper(found.source);
+  const std::string word = ascii_upper(wrong);
+  const auto is_in_word = [&](std::size_t at) {
+    return at < line.size() && (is_ascii_alphanumeric(line[at]) || line[at] == '_');
+  };
+  for (std::size_t at = 0; (at = line.find(word, at)) != line.npos; at += word.size()) {
+    const auto column = [&](std::size_t byte) {
+      const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
+      return static_cast<std::uint32_t>(
+          1 + std::ranges::count_if(std::string_view(line).substr(0, byte), begins));
+    };
+    const bool is_whole = (at == 0 || !is_in_word(at - 1)) && !is_in_word(at + word.size());
+    if (!is_whole || column(at) < found.range.begin.column) continue;
+    const std::uint32_t number = found.range.begin.line;
+    edits.push_back(
+        {{{number, column(at)}, {number, column(at + word.size())}}, std::string(right)});
+  }
+  return edits;
+}
+
+void suggest(std::vector<Diagnostic>& diagnostics, std::string_view wrong,
+             const SpellingHint& hint) {
+  if (hint.word().empty() || diagnostics.empty()) return;
+  auto edits = replacements(diagnostics.back(), wrong, hint.word());
+  if (edits.empty()) return;
+  edits.resize(1);
+  diagnostics.back().remedies.push_back({"Write " + hint.word(), std::move(edits)});
+}
+
+std::optional<klartext::DiagnosticEdit> written_number(const klartext::Program& program,
+                                                       klartext::Slice<char> place) {
+  std::string_view code = program.written(place);
+  code = code.substr(0, code.find_first_of("\n;"));
+  code = code.substr(0, code.find_last_not_of(" \t\r~*") + 1);
+  const std::size_t begin = code.find_last_not_of("+-0123456789.,") + 1;
+  const std::string_view before = trim(code.substr(0, begin));
+  const bool is_set = before.ends_with('=') || ascii_upper(before).ends_with("P01") ||
+                      ascii_upper(before).ends_with("P1");
+  if (begin == code.size() || !is_set) return std::nullopt;
+  place.first += static_cast<std::uint32_t>(begin);
+  place.count = static_cast<std::uint32_t>(code.size() - begin);
+  return klartext::DiagnosticEdit{program.range(place), std::string(code.substr(begin))};
+}
+
 bool is_ignored(const klartext::Program& program, const Diagnostic& found) {
   const std::uint32_t line = found.range.begin.line;
   if (found.severity == klartext::Severity::Error || line == 0) return false;

@@ -2,10 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "base/text.hpp"
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/syntax.hpp"
 
@@ -22,6 +25,19 @@ klartext::Diagnostic diagnose(const klartext::Program& program, const klartext::
 klartext::Diagnostic diagnose(const klartext::Program& program, const klartext::Block& block,
                               klartext::Slice<char> place, klartext::Severity severity,
                               klartext::DiagnosticCode code, std::string message);
+
+/// The change of a wrong word of a finding, from its place on to the end of the line, and further
+/// ones of the same word.
+std::vector<klartext::DiagnosticEdit> replacements(const klartext::Diagnostic& found,
+                                                   std::string_view wrong, std::string_view right);
+
+/// Adds the remedy to write the near word to the last finding.
+void suggest(std::vector<klartext::Diagnostic>& diagnostics, std::string_view wrong,
+             const SpellingHint& hint);
+
+/// The only number that a place sets, as written: `Q275=+25`, `Q9 = +26`, `D00 Q9 P01 +26`.
+std::optional<klartext::DiagnosticEdit> written_number(const klartext::Program& program,
+                                                       klartext::Slice<char> place);
 
 /// Returns whether a comment of the program switches a note or warning off: `check:ignore`, with or
 /// without codes, in its line or in the comment line above it; of a run, in a line of its block.

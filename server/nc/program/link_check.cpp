@@ -254,6 +254,7 @@ class BlockCheck {
         fmt::format(
             "cycle {} has no parameter {}{}{}", cycle.number, name(written.parameter), hint.text(),
             block.family == klartext::CycleFamily::TchProbe ? owner(block) : std::string()));
+    suggest(diagnostics_, name(written.parameter), hint);
   }
 
   /// PREDEF is the value of a GLOBAL DEF, so a parameter without one must not have PREDEF.

@@ -141,18 +141,16 @@ class Linker {
     return nullptr;
   }
 
-  /// "; did you mean "UP1"?" for a name, or nothing.
-  std::string similar_label(const Label& label) const {
-    const auto* name = std::get_if<Text>(&label);
-    if (name == nullptr) return {};
-    SpellingHint hint(program_.text(*name));
+  /// The known name that is near to another.
+  SpellingHint similar_label(std::string_view name) const {
+    SpellingHint hint(name);
     constexpr std::size_t kMostCompared = 1000;
     std::size_t compared = 0;
     for (const auto& [known, at] : parts_.named_labels) {
       if (++compared > kMostCompared) break;
       hint.consider(known);
     }
-    return hint.text();
+    return hint;
   }
 
   void lower(std::uint32_t index, const Block& block) {
@@ -240,9 +238,13 @@ class Linker {
       const auto target = resolve(jump.label);
       Instruction& instruction = writer_.at(jump.instruction);
       if (!target) {
+        const auto* text = std::get_if<Text>(&jump.label);
+        const std::string_view name = text == nullptr ? std::string_view() : program_.text(*text);
+        const SpellingHint hint = similar_label(name);
         report(Severity::Error, DiagnosticCode::LabelUnknown, block,
                fmt::format("label {} is not defined in this program{}", shown(jump.label),
-                           similar_label(jump.label)));
+                           hint.text()));
+        suggest(file_.diagnostics, name, hint);
         continue;
       }
       if (instruction.op == Op::Repeat && *target > jump.instruction) {  // decision 7

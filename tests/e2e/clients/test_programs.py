@@ -60,6 +60,11 @@ class Programs(ClientTest):
                   for place in result["locations"] + result["relatedLocations"]]
         self.assertEqual(places, [(2, "order.h"), (10, "order.h")])
         self.assertEqual(result["relatedLocations"][0]["message"]["text"], "the other number")
+        fix, = result["fixes"]
+        self.assertEqual(fix["description"]["text"], "Exchange the two numbers")
+        self.assertEqual([(each["deletedRegion"], each["insertedContent"]["text"]) for each in fix["artifactChanges"][0]["replacements"]],
+                         [({"startLine": 2, "startColumn": 6, "endColumn": 9}, "+12.1"),
+                          ({"startLine": 10, "startColumn": 7, "endColumn": 12}, "+13")])
         self.client.write("b.h", "BEGIN PGM B MM\nCALL PGM a.h\nLX 5\nEND PGM B MM\n")
         text = self.assert_runs(2, "nc", "check", "b.h")
         self.assertIn("a.h:2:", text)
