@@ -73,7 +73,11 @@ class Contradictions {
   /// BLK FORM 0.2 is the other corner of the blank that 0.1 begins.
   void visit(const klartext::BlankForm& blank) {
     if (blank.kind != klartext::BlankKind::Maximum) {
-      if (blank.kind == klartext::BlankKind::Minimum) corner_ = block_, check_lower(blank);
+      if (blank.kind != klartext::BlankKind::Minimum) return;
+      corner_ = block_;
+      if (std::ranges::any_of(program_.view(blank.words), &klartext::Word::incremental))
+        warn(DiagnosticCode::OrderContradicts, block_->written,
+             "the lower corner of the blank must be absolute: there is no position before it");
       return;
     }
     if (corner_ == nullptr) {
@@ -94,14 +98,6 @@ class Contradictions {
                          klartext::spelling(word.letter), upper, klartext::spelling(word.letter),
                          *lower));
       }
-    }
-  }
-  void check_lower(const klartext::BlankForm& blank) {
-    for (const klartext::Word& word : program_.view(blank.words)) {
-      if (!word.incremental) continue;
-      warn(DiagnosticCode::OrderContradicts, block_->written,
-           fmt::format("BLK FORM 0.1 has no position before it: write {0} instead of I{0}",
-                       klartext::spelling(word.letter)));
     }
   }
   void visit(const klartext::LabelDefinition& label) {

@@ -113,7 +113,7 @@ TEST_CASE("a blank whose corners contradict each other is found") {
   CHECK(found("BLK FORM 0.1 Z X+5 Y+0 Z-20\nBLK FORM 0.2 IX+0 Y+10 Z+0") ==
         "the upper corner of the blank must lie above the lower one: X+5 and X+5");
   CHECK(found("BLK FORM 0.1 Z IX+5 Y+0 Z-20\nBLK FORM 0.2 X+10 Y+10 Z+0") ==
-        "BLK FORM 0.1 has no position before it: write X instead of IX");
+        "the lower corner of the blank must be absolute: there is no position before it");
 }
 
 TEST_CASE("M functions of one block that exclude each other are found before the run") {
