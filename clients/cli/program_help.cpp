@@ -179,7 +179,7 @@ std::string parameter_hover(const EditedText& text, std::size_t line, klartext::
   return shown.empty() ? shown : fmt::format("**{}**\n\n{}", name, shown);
 }
 
-/// A setting in sub-lines, and what a code of DIN/ISO is in Klartext.
+/// A setting in sub-lines, and a block of DIN/ISO in Klartext.
 std::string setting_hover(const EditedText& text, std::size_t line) {
   const klartext::Program& tree = text.tree();
   std::string blocks;
@@ -187,12 +187,11 @@ std::string setting_hover(const EditedText& text, std::size_t line) {
   for (const klartext::Block& block : tree.blocks()) {
     const SourceRange range = tree.range(block.written);
     if (range.begin.line > line + 1 || range.end.line < line + 1) continue;
-    const auto* sub_line = std::get_if<klartext::CyclePart>(&block.statement);
-    if (part == nullptr) part = sub_line;
-    if (text.is_iso() && sub_line != nullptr)
-      blocks += fmt::format("`{}`\n\n", klartext::print_statement(tree, block));
+    if (part == nullptr) part = std::get_if<klartext::CyclePart>(&block.statement);
+    const std::string klartext = klartext::print_statement(tree, block);
+    if (text.is_iso() && !klartext.empty()) blocks += fmt::format("`{}`\n\n", klartext);
   }
-  if (part == nullptr) return {};
+  if (part == nullptr) return blocks;
   if (const auto* cycle = find_descriptor(part->family, part->number))
     return blocks + cycle_hover(*cycle);
   const auto* setting = interpreter::dotted_setting(part->number);

@@ -116,6 +116,7 @@ class Editing(LanguageTest):
         self.assertIn("2: `N1 G55 P01 5", shown("a.i", "N4 ", "Q5"))
         self.assertIn("`CYCL DEF 7.1 X+1`", shown("a.i", "G54"))
         self.assertIn("**CYCL DEF 10 ROTATION**", shown("a.i", "G73"))
+        self.assertEqual("`FN 0: Q1 = +Q5`", shown("a.i", "N4 ").strip())
 
     def test_completion_writes_a_cycle_that_only_lacks_values(self):
         for name, head, frame_of in (("a.h", "TCH PROBE 42", "BEGIN PGM A MM\nTOOL CALL 1 Z\n{}\nEND PGM A MM\n"),
