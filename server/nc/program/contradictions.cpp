@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "nc/klartext/word_names.hpp"
 #include "nc/probing/cycles.hpp"
+#include "nc/program/blank_form.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/followed_values.hpp"
@@ -70,35 +70,9 @@ class Contradictions {
 
   // --- blocks before a block that probes
   void visit(const auto&) {}
-  /// BLK FORM 0.2 is the other corner of the blank that 0.1 begins.
-  void visit(const klartext::BlankForm& blank) {
-    if (blank.kind != klartext::BlankKind::Maximum) {
-      if (blank.kind != klartext::BlankKind::Minimum) return;
-      corner_ = block_;
-      if (std::ranges::any_of(program_.view(blank.words), &klartext::Word::incremental))
-        warn(DiagnosticCode::OrderContradicts, block_->written,
-             "the lower corner of the blank must be absolute: there is no position before it");
-      return;
-    }
-    if (corner_ == nullptr) {
-      return warn(DiagnosticCode::OrderContradicts, block_->written,
-                  "BLK FORM 0.2 stands without BLK FORM 0.1 before it");
-    }
-    const auto& least = std::get<klartext::BlankForm>(corner_->statement);
-    for (const klartext::Word& word : program_.view(blank.words)) {
-      for (const klartext::Word& below : program_.view(least.words)) {
-        const auto* written = std::get_if<double>(&word.value);
-        const auto* lower = std::get_if<double>(&below.value);
-        if (word.letter != below.letter || written == nullptr || lower == nullptr) continue;
-        const double upper = word.incremental ? *lower + *written : *written;
-        if (upper > *lower) continue;
-        warn(DiagnosticCode::OrderContradicts, block_->written,
-             fmt::format("the upper corner of the blank must lie above the lower one: {}{:+g} and "
-                         "{}{:+g}",
-                         klartext::spelling(word.letter), upper, klartext::spelling(word.letter),
-                         *lower));
-      }
-    }
+  void visit(const klartext::BlankForm&) {
+    for (std::string& fault : blank_faults(program_, *block_))
+      warn(DiagnosticCode::OrderContradicts, block_->written, std::move(fault));
   }
   void visit(const klartext::LabelDefinition& label) {
     forget();
@@ -430,7 +404,6 @@ class Contradictions {
   std::vector<klartext::Diagnostic>& diagnostics_;
   const Block* block_ = nullptr;
   const Block* before_ = nullptr;
-  const Block* corner_ = nullptr;   ///< BLK FORM 0.1
   const Block* spindle_ = nullptr;  ///< the block that has started the spindle
   const Block* cutter_ = nullptr;   ///< the block that machines with the tool in the spindle
   bool has_tool_ = false;           ///< the program calls one

@@ -10,6 +10,7 @@
 #include "nc/klartext/parser.hpp"
 #include "nc/klartext/word_names.hpp"
 #include "nc/probing/cycles.hpp"
+#include "nc/program/blank_form.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/parameter.hpp"
@@ -333,9 +334,10 @@ bool has_effect(const klartext::Program& program, std::uint32_t index) {
   if (std::holds_alternative<CyclePart>(statement)) {
     return !neighbour(program, index, 1).has_value();
   }
+  if (std::holds_alternative<klartext::BlankForm>(statement))
+    return !blank_faults(program, program.blocks()[index]).empty();
   return !(is_comment(program.blocks()[index]) ||
-           std::holds_alternative<klartext::BeginProgram>(statement) ||
-           std::holds_alternative<klartext::BlankForm>(statement));
+           std::holds_alternative<klartext::BeginProgram>(statement));
 }
 
 std::uint32_t first_part(const klartext::Program& program, std::uint32_t index) {

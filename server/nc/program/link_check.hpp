@@ -8,8 +8,8 @@
 
 namespace fitgauge::interpreter {
 
-/// Whether a block does something when the program runs: comments, labels but LBL 0, BLK FORM and
-/// all sub-lines of a dotted cycle but its last do not.
+/// Whether a block does something when the program runs: comments, labels but LBL 0, a right BLK
+/// FORM and all sub-lines of a dotted cycle but its last do not.
 bool has_effect(const klartext::Program& program, std::uint32_t block);
 
 /// Returns the block that opens the dotted cycle of the sub-line `block`; for other blocks `block`.

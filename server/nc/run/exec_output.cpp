@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "nc/program/blank_form.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/formatted_printer.hpp"
 #include "nc/run/statements.hpp"
@@ -132,6 +133,12 @@ NcResult<void> execute(Channel& channel, const klartext::FormattedPrint& print) 
 NcResult<void> execute(Channel& channel, const klartext::ExternalFunction& function) {
   return channel.note(
       fmt::format("FN {} reaches outside of the program and has no effect here", function.fn));
+}
+
+NcResult<void> execute(Channel& channel, const klartext::BlankForm&) {
+  for (std::string& fault : blank_faults(channel.program(), channel.place().source()))
+    TRY(channel.note(std::move(fault)));
+  return {};
 }
 
 NcResult<void> execute(Channel& channel, const klartext::WaitFor& wait) {

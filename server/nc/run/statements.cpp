@@ -37,7 +37,7 @@ class Dispatcher {
     if constexpr (requires { execute(channel_, statement); }) {
       return wrap(execute(channel_, statement));
     } else {
-      return Next{};  // comments, labels, BLK FORM: the linker makes no code of them
+      return Next{};  // comments, labels: the linker makes no code of them
     }
   }
 

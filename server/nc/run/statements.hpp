@@ -49,6 +49,7 @@ NcResult<void> execute(Channel& channel, const klartext::Print& print);
 NcResult<void> execute(Channel& channel, const klartext::FormattedPrint& print);
 NcResult<void> execute(Channel& channel, const klartext::ExternalFunction& function);
 NcResult<void> execute(Channel& channel, const klartext::WaitFor& wait);
+NcResult<void> execute(Channel& channel, const klartext::BlankForm& blank);
 
 // exec_machine.cpp
 NcResult<void> execute(Channel& channel, const klartext::ToolCall& call);

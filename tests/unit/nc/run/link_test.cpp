@@ -116,6 +116,19 @@ TEST_CASE("a blank whose corners contradict each other is found") {
         "the lower corner of the blank must be absolute: there is no position before it");
 }
 
+TEST_CASE("a run notes a blank whose corners contradict each other") {
+  Control control;
+  const auto noted = [&](std::string_view blocks) {
+    std::string all;
+    for (const RunMessage& message : control.run(blocks).messages) all += message.text + "\n";
+    return all;
+  };
+  CHECK(noted("BLK FORM 0.1 Z IX+0 Y+0 Z-20\nBLK FORM 0.2 X+10 IY-10 Z+0") ==
+        "the lower corner of the blank must be absolute: there is no position before it\n"
+        "the upper corner of the blank must lie above the lower one: Y-10 and Y+0\n");
+  CHECK(noted("BLK FORM 0.1 Z X+0 Y+0 Z-20\nBLK FORM 0.2 X+10 IY+10 Z+0") == "");
+}
+
 TEST_CASE("M functions of one block that exclude each other are found before the run") {
   Control control;
   const auto found = [&](std::string_view block) {
