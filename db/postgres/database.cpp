@@ -137,10 +137,7 @@ class SharedDatabase final : public Database {
   Names names_;
   Notifications notifications_;
   HealthMonitor monitor_;
-  Position position_{[this](const std::string& why) {
-    monitor_.writes_failed(why);
-    if (options_.health_changed) options_.health_changed({HealthState::WritesFailing, why});
-  }};
+  Position position_{[this](const std::string& why) { monitor_.set_back(why); }};
   std::atomic<bool> is_away_{false};
   Writer::Engine writer_engine_;
   ReadPool::Engine reader_engine_;

@@ -10,9 +10,11 @@ template <class Change>
 void HealthMonitor::change(Change change) {
   const std::lock_guard lock(mutex_);
   const HealthState before = current().state;
+  const bool was_set_back = !set_back_.empty();
   change();
   const Health after = current();
-  if (after.state != before && report_) report_(after);
+  const bool is_news = after.state != before || was_set_back == set_back_.empty();
+  if (is_news && report_) report_(after);
 }
 
 void HealthMonitor::checking(std::string reason) {
@@ -27,6 +29,10 @@ void HealthMonitor::damaged(std::string reason) {
   change([&] {
     if (damage_.empty()) damage_ = std::move(reason);
   });
+}
+
+void HealthMonitor::set_back(std::string reason) {
+  change([&] { set_back_ = std::move(reason); });
 }
 
 void HealthMonitor::writes_failed(std::string reason) {
@@ -47,6 +53,7 @@ Health HealthMonitor::health() const {
 }
 
 Health HealthMonitor::current() const {
+  if (!set_back_.empty()) return {HealthState::WritesFailing, set_back_};
   if (!damage_.empty()) return {HealthState::Damaged, damage_};
   if (!write_failure_.empty()) return {HealthState::WritesFailing, write_failure_};
   if (server_is_away_) return {HealthState::WritesFailing, "PostgreSQL does not answer"};

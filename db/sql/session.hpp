@@ -25,7 +25,8 @@ class HealthMonitor {
 
   void checking(std::string reason);
   void check_passed();
-  void damaged(std::string reason);  ///< for good; the first reason stays
+  void damaged(std::string reason);   ///< for good; the first reason stays
+  void set_back(std::string reason);  ///< for good, instead of all other reasons
   void writes_failed(std::string reason);
   void writes_succeeded();
   void server_is_away(bool is_away);  ///< of PostgreSQL
@@ -40,6 +41,7 @@ class HealthMonitor {
   const Report report_;
   mutable std::mutex mutex_;
   std::string checking_;
+  std::string set_back_;
   std::string damage_;
   std::string write_failure_;
   bool server_is_away_ = false;

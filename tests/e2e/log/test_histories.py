@@ -403,6 +403,24 @@ class SharedDatabases(Restored):
                  lambda: daemon.log)
         self.assertEqual(daemon.measure(PART).status, 503)
 
+    def test_a_dump_is_restored_under_a_running_service(self):
+        """It meets the tables while they are empty, and then the older copy."""
+        cluster = Cluster("fsync=off").start()
+        self.addCleanup(cluster.cleanup)
+        daemon = self.made("--database", cluster.address()).start()
+        self.store(daemon, "d1")
+        cluster.dump("postgres", dump := daemon.folder / "dump")
+        self.store(daemon, "d2")
+        cluster.query("DROP SCHEMA fitgauge CASCADE")
+        cluster.restore("postgres", dump, "--section=pre-data")
+        wait_for(lambda: daemon.measure(PART).json["code"] == "storage.corrupt", lambda: daemon.log)
+        cluster.restore("postgres", dump, "--section=data", "--section=post-data")
+        self.assert_refuses(daemon)
+        finding, = daemon.get("/readyz").json["errors"]
+        self.assertEqual(finding["code"], "storage.unavailable")
+        self.assertIn("an older copy was restored", finding["detail"])
+        self.assertEqual(daemon.log.count("an older copy was restored"), 1)
+
     def test_a_server_is_set_back_under_running_services(self):
         cluster = Cluster("fsync=off").start()
         self.addCleanup(cluster.cleanup)

@@ -79,8 +79,8 @@ class Cluster:
         with open(file, "wb") as out:
             subprocess.run(["pg_dump", "--schema=fitgauge", "-Fc", self.address(database)], check=True, stdout=out, timeout=PATIENCE)
 
-    def restore(self, database, file):
-        subprocess.run(["pg_restore", "--exit-on-error", "-d", self.address(database), file], check=True, timeout=PATIENCE)
+    def restore(self, database, file, *options):
+        subprocess.run(["pg_restore", "--exit-on-error", *options, "-d", self.address(database), file], check=True, timeout=PATIENCE)
 
     def cleanup(self):
         subprocess.run([SCRIPT, "stop", self.folder, "immediate"], check=False, stderr=subprocess.DEVNULL)
