@@ -16,11 +16,12 @@ using sql::Rows;
 
 namespace {
 
-/// A restore makes the table anew. The timeline comes last: a fail-over changes it alone.
+/// A restore writes each row anew, also the first row of all, which nothing changes. The timeline
+/// comes last: a fail-over changes it alone.
 constexpr const char* kPlace =
     "SELECT (SELECT system_identifier FROM pg_control_system()) || ' ' || (SELECT oid FROM "
     "pg_database WHERE datname = current_database()) || ' ' || "
-    "'log'::regclass::oid || ' ' || "
+    "(SELECT xmin::text FROM schema_migrations ORDER BY number LIMIT 1) || ' ' || "
     "left(pg_walfile_name(pg_current_wal_insert_lsn()), 8)";
 
 }  // namespace

@@ -336,8 +336,8 @@ std::optional<std::string> LogService::why_to_branch(Loaded& loaded) {
   if (loaded.forked && options_.shares) return loaded.forked;
   if (loaded.kept_place.value_or(loaded.place) != loaded.place) {
     return fmt::format(
-        "the database was restored or moved: it was at {} (server, database, table, timeline), and "
-        "is at {}",
+        "the database was restored or moved: it was at {} (server, database, first row, timeline), "
+        "and is at {}",
         *loaded.kept_place, loaded.place);
   }
   if (!options_.ask_centre) return std::nullopt;

@@ -371,7 +371,12 @@ class SharedDatabases(Restored):
     def test_a_dump_is_restored_into_the_same_database(self):
         self.restore_a_dump(("DROP SCHEMA fitgauge CASCADE", "live"))
 
-    def restore_a_dump(self, *emptied):
+    def test_a_dump_is_restored_into_the_same_tables(self):
+        truncate = ("SET session_replication_role = replica; DO $$ BEGIN EXECUTE (SELECT 'TRUNCATE ' || string_agg("
+                    "'fitgauge.' || tablename, ', ') FROM pg_tables WHERE schemaname = 'fitgauge'); END $$")
+        self.restore_a_dump((truncate, "live"), options=("--data-only", "--disable-triggers"))
+
+    def restore_a_dump(self, *emptied, options=()):
         cluster = Cluster("fsync=off").start()
         self.addCleanup(cluster.cleanup)
         cluster.query("CREATE DATABASE live")
@@ -384,7 +389,7 @@ class SharedDatabases(Restored):
         other.stop()
         for sql, database in emptied:
             cluster.query(sql, database)
-        cluster.restore("live", dump)
+        cluster.restore("live", dump, *options)
         daemon.start()
         new = self.store(daemon, "n3 n4")
         other.start()
