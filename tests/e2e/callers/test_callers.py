@@ -310,6 +310,13 @@ class OtherOrigins(Callers):
             "Origin": self.MES, "Access-Control-Request-Method": "POST"})
         self.assertEqual(answer.status, 204)
         self.assertEqual(answer.headers["access-control-allow-methods"], "GET, HEAD, POST, OPTIONS")
+        allowed = set(answer.headers["access-control-allow-headers"].split(", "))
+        described = self.daemon.get("/openapi.json").json
+        parameters = [each for path in described["paths"].values() for operation in path.values()
+                      for each in operation.get("parameters", []) if each["in"] == "header"]
+        schemes = [each for each in described["components"]["securitySchemes"].values() if each.get("in") == "header"]
+        self.assertEqual({each["name"] for each in (*parameters, *schemes)} - allowed, set())
+        self.assertLessEqual({"Authorization", "Content-Type", "X-Request-Id"}, allowed)
 
     def test_others_stay_refused(self):
         for origin in ("https://mes.example.evil", "https://MES.example", "null"):

@@ -163,7 +163,7 @@ TEST_CASE("a preflight of an allowed origin is answered without the guard") {
   CHECK(allowed.field("Access-Control-Allow-Methods") == "GET, HEAD, POST, OPTIONS");
   CHECK(allowed.field("Access-Control-Allow-Headers") ==
         "Authorization, Content-Type, Idempotency-Key, If-Match, If-None-Match, Last-Event-ID, "
-        "Prefer");
+        "Prefer, X-API-Key, X-Request-Id");
   CHECK(allowed.field("Access-Control-Max-Age") == "600");
   CHECK(allowed.field("Vary") == "Origin");
   const Answer foreign =
