@@ -170,11 +170,15 @@ constexpr DescribedHeader kHeaders[] = {
      }},
     {"Idempotency-Replayed", "true: the response to an earlier request with this key",
      [](const auto& route, int) { return takes(route, "Idempotency-Key"); }},
+    {"Preference-Applied", "The word of Prefer that was applied",
+     [](const auto& route, int) { return takes(route, "Prefer"); }},
     {"Link", "The next page, rel=\"next\"",
-     [](const auto& route, int) { return is_get(route) && takes(route, "after"); }},
+     [](const auto& route, int status) {
+       return status == 200 && is_get(route) && takes(route, "after");
+     }},
     {"Content-Disposition", "The name of the file",
-     [](const auto& route, int) {
-       return is_get(route) &&
+     [](const auto& route, int status) {
+       return status == 200 && is_get(route) &&
               (route.pattern == "/v1/measurements" || route.pattern == "/v1/certificates");
      }},
 };
@@ -210,10 +214,9 @@ void write_responses(JsonWriter& json, const http::Route& route) {
   json.key("responses").begin_object();
   for (const http::Outcome& outcome : route.outcomes) write_outcome(json, route, outcome);
   if (is_get(route) && has_tag(route)) {
-    json.key("304")
-        .begin_object()
-        .member("description", "If-None-Match names the state")
-        .end_object();
+    json.key("304").begin_object().member("description", "If-None-Match names the state");
+    write_headers(json, route, 304);
+    json.end_object();
   }
   for (const int status : refusals_of(route)) {
     json.key(std::to_string(status)).begin_object().member("$ref", refusal(status)).end_object();

@@ -59,4 +59,8 @@ class ContractTest(DaemonTest):
         self.assertIsNone(self.contract.check(operation, answer), f"{operation_id}: {answer}")
         if status < 300:
             self.succeeded.add(operation_id)
+        if method == "get" and "etag" in answer.headers:
+            kept = self.daemon.get(path, **{**(headers or {}), "If-None-Match": answer.headers["etag"]})
+            self.assertEqual(kept.status, 304, operation_id)
+            self.assertIsNone(self.contract.check(operation, kept), f"{operation_id}: {kept}")
         return answer
