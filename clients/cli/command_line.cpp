@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -129,6 +130,7 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file at its size limit is an error of a write
   CLI::App app(
       "Command line of the fitgauge service: look up limits and fits, judge and store "
       "measurements, run NC programs.",

@@ -2,11 +2,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -17,6 +19,7 @@ namespace fitgauge::cli {
 namespace {
 
 constexpr std::size_t kReadSize = std::size_t{64} << 10;
+constexpr int kMostLinks = 40;  // as Linux follows
 
 Failure failed(const std::string& name, const char* what) {
   return {ExitCode::LocalFile, fmt::format("{}: cannot {}: {}", name, what, std::strerror(errno))};
@@ -29,6 +32,50 @@ mode_t usual_rights() {
   const mode_t mask = umask(0);
   umask(mask);
   return 0666 & ~mask;
+}
+
+/// Name of the temporary file that a signal removes.
+std::atomic<const char*> unfinished{nullptr};
+
+void remove_unfinished(int number) {
+  if (const char* const name = unfinished) unlink(name);
+  signal(number, SIG_DFL);
+  raise(number);
+}
+
+void remove_at_signals(const char* name) {
+  unfinished = name;
+  for (const int number : {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM}) {
+    const auto before = signal(number, remove_unfinished);
+    if (before != SIG_DFL && before != remove_unfinished) signal(number, before);
+  }
+}
+
+/// Returns whether a path such as /dev/fd/5 names an open descriptor of this process.
+bool names_descriptor(const fs::path& path) {
+  std::error_code none;
+  return fs::equivalent(path.parent_path(), "/proc/self/fd", none);
+}
+
+/// Returns the file, which may be missing, or the open descriptor that links lead to.
+fs::path followed(fs::path path) {
+  std::error_code none;
+  for (int links = 0; links < kMostLinks && !names_descriptor(path); ++links) {
+    if (!fs::is_symlink(path, none)) break;
+    path = path.parent_path() / fs::read_symlink(path, none);
+  }
+  return path;
+}
+
+/// Opens a pipe or a device. A pipe may get its reader soon: waits some seconds for it.
+int open_directly(const fs::path& path) {
+  constexpr timespec kPause{.tv_sec = 0, .tv_nsec = 50'000'000};
+  for (int tries = 100;; --tries) {
+    const int opened = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (opened >= 0) fcntl(opened, F_SETFL, fcntl(opened, F_GETFL) & ~O_NONBLOCK);
+    if (opened >= 0 || errno != ENXIO || tries == 0) return opened;
+    nanosleep(&kPause, nullptr);
+  }
 }
 
 }  // namespace
@@ -99,7 +146,10 @@ Outcome<std::string> read_file(const std::string& path) {
 }
 
 Outcome<void> may_replace(const std::string& path, bool force) {
-  if (force || path == "-" || ::access(path.c_str(), F_OK) != 0) return {};
+  const fs::path target = followed(path);
+  std::error_code none;
+  const bool is_replaced = !names_descriptor(target) && fs::is_regular_file(target, none);
+  if (force || path == "-" || !is_replaced) return {};
   if (::isatty(STDIN_FILENO) == 1) {
     fmt::print(stderr, "fitgauge: {} exists: replace it? [y/N] ", path);
     std::string line;
@@ -109,31 +159,38 @@ Outcome<void> may_replace(const std::string& path, bool force) {
 }
 
 OutputFile::~OutputFile() {
-  if (!draft_.empty()) unlink(draft_.c_str());
+  if (draft_.empty()) return;
+  unlink(draft_.c_str());
+  unfinished = nullptr;
+}
+
+bool OutputFile::open(int descriptor) {
+  if (descriptor >= 0) file_.reset(fdopen(descriptor, "wb"));
+  return file_ != nullptr;
 }
 
 bool OutputFile::open() {
-  if (path_.empty() || path_ == "-") {
-    file_.reset(fdopen(dup(STDOUT_FILENO), "wb"));
-    return file_ != nullptr;
-  }
+  if (path_.empty() || path_ == "-") return open(dup(STDOUT_FILENO));
+  const fs::path target = followed(path_);
+  if (names_descriptor(target)) return open(dup(std::atoi(target.filename().c_str())));
   struct stat status {};
-  const bool is_there = stat(path_.c_str(), &status) == 0;
+  const bool is_there = stat(target.c_str(), &status) == 0;
+  if (is_there ? ::access(target.c_str(), W_OK) != 0 : errno != ENOENT) return false;
   if (is_there && !S_ISREG(status.st_mode)) {
-    file_.reset(std::fopen(path_.c_str(), "wb"));
-    return file_ != nullptr;
+    const bool is_open = open(open_directly(target));
+    if (!is_open && S_ISFIFO(status.st_mode) && errno == ENXIO) failure_ = "no program reads it";
+    return is_open;
   }
-  std::error_code none;
-  target_ = is_there ? fs::canonical(path_, none).string() : path_;
-  const fs::path target(target_);
+  target_ = target.string();
   draft_ = (target.parent_path() / fmt::format(".{}.XXXXXX", target.filename().string())).string();
+  remove_at_signals(draft_.c_str());
   const int descriptor = mkostemp(draft_.data(), O_CLOEXEC);
   if (descriptor < 0) {
+    unfinished = nullptr;
     draft_.clear();
     return false;
   }
-  file_.reset(fdopen(descriptor, "wb"));
-  return file_ != nullptr &&
+  return open(descriptor) &&
          fchmod(descriptor, is_there ? status.st_mode & 07777 : usual_rights()) == 0;
 }
 
@@ -141,7 +198,7 @@ bool OutputFile::write(std::string_view bytes) {
   if (!failure_.empty()) return false;
   const bool good =
       (file_ || open()) && std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size();
-  if (!good) failure_ = std::strerror(errno);
+  if (!good && failure_.empty()) failure_ = std::strerror(errno);
   return good;
 }
 
@@ -149,7 +206,10 @@ Outcome<void> OutputFile::finish() {
   bool good = write("") && std::fflush(file_.get()) == 0;
   if (good && !draft_.empty()) {
     good = fsync(fileno(file_.get())) == 0 && std::rename(draft_.c_str(), target_.c_str()) == 0;
-    if (good) draft_.clear();
+    if (good) {
+      unfinished = nullptr;
+      draft_.clear();
+    }
   }
   if (good) return {};
   if (failure_.empty()) failure_ = std::strerror(errno);

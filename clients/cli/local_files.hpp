@@ -53,7 +53,8 @@ Outcome<void> may_replace(const std::string& path, bool force);
 
 /// An output file, or standard output. A file is written to a temporary name (`.NAME.XXXXXX`) and
 /// renamed by finish(): until then, and after a failure, an earlier file of that name is unchanged.
-/// A device or a pipe is written to directly.
+/// A signal that ends the process removes the temporary file: there is one at a time. An open
+/// descriptor (/dev/stdout), a device or a pipe is written to directly.
 class OutputFile {
  public:
   /// @param path empty or `-` is standard output. Nothing is opened before the first write.
@@ -68,6 +69,7 @@ class OutputFile {
 
  private:
   bool open();
+  bool open(int descriptor);
 
   const std::string path_;
   std::string target_;  ///< target of a link

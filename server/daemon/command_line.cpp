@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <iostream>
 #include <map>
 #include <thread>
@@ -273,6 +274,7 @@ int dispatch(const CLI::App& app, const Arguments& arguments, const Commands& co
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file at its size limit is an error of a write
   CLI::App app(
       "Service for ISO 286 limits, verdicts on measured diameters and Klartext probe programs over "
       "HTTP.",

@@ -28,10 +28,7 @@ namespace fitgauge::daemon {
 namespace {
 
 void prepare_signals() {
-  // A client that hangs up and a file at its size limit are errors of calls, not ends of the
-  // process.
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);  // a client that hangs up is an error of a write
   const sigset_t signals = waited_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
