@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/text.hpp"
 #include "formats/dfq/lines.hpp"
@@ -151,7 +152,10 @@ Result<void> QifWriter::add(const OutgoingValue& value) {
 }
 
 std::string QifWriter::element() const {
-  std::string out = fmt::format(
+  std::string out;  // nearly all of its size at once: growth would hold it twice
+  out.reserve(definitions_.size() + nominals_.size() + item_texts_.size() +
+              measurement_texts_.size() + (parts_.size() + 16) * 256);
+  out += fmt::format(
       "<QIFDocument xmlns=\"http://qifstandards.org/xsd/qif3\" versionQIF=\"3.0.0\" idMax=\"{}\">\n"
       "<QPId>{}</QPId>\n",
       last_id_ + 1, qpid_);
@@ -167,7 +171,9 @@ std::string QifWriter::element() const {
       "<UnitConversion><Factor>0.001</Factor></UnitConversion></LinearUnit></PrimaryUnits>"
       "</FileUnits>\n<Characteristics><FormalStandardId>1</FormalStandardId>\n";
   const auto list = [&out](std::string_view name, std::size_t count, std::string_view texts) {
-    out += fmt::format("<{0} n=\"{1}\">\n{2}</{0}>\n", name, count, texts);
+    fmt::format_to(std::back_inserter(out), "<{} n=\"{}\">\n", name, count);
+    out.append(texts);
+    fmt::format_to(std::back_inserter(out), "</{}>\n", name);
   };
   list("CharacteristicDefinitions", items_.size(), definitions_);
   list("CharacteristicNominals", items_.size(), nominals_);
@@ -194,11 +200,14 @@ std::string QifWriter::element() const {
     list("ActualComponentSet", parts_.size(), components);
     out += "</ActualComponentSets>\n";
   }
-  return out += "</Results>\n</QIFDocument>\n";
+  out += "</Results>\n</QIFDocument>\n";
+  return out;
 }
 
 std::string QifWriter::text() const {
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + element();
+  std::string out = element();
+  out.insert(0, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+  return out;
 }
 
 }  // namespace fitgauge::qif
