@@ -1,5 +1,7 @@
 #include "base/worker_pool.hpp"
 
+#include <malloc.h>
+
 #include <string>
 
 namespace fitgauge {
@@ -29,8 +31,15 @@ void WorkerPool::stop() {
   threads_.clear();
 }
 
+/// After a long job the free memory between the blocks of others goes back to the kernel.
 void WorkerPool::run() {
-  while (const auto taken = queue_.take_one()) guarded(place_, taken->job);
+  constexpr std::chrono::milliseconds kLong{100};
+  while (auto taken = queue_.take_one()) {
+    const auto begin = std::chrono::steady_clock::now();
+    guarded(place_, taken->job);
+    taken.reset();
+    if (std::chrono::steady_clock::now() - begin > kLong) malloc_trim(0);
+  }
 }
 
 Error JobPool::full() {

@@ -3,8 +3,13 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <chrono>
+#include <fstream>
 #include <future>
+#include <memory>
 #include <stdexcept>
+#include <thread>
+#include <vector>
 
 namespace fitgauge {
 namespace {
@@ -19,6 +24,36 @@ struct LongJob {
   std::promise<void> begun;
   std::promise<void> let_go;
 };
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/// Pages of this process in memory (proc(5), statm).
+long pages_resident() {
+  std::ifstream file("/proc/self/statm");
+  long size = 0;
+  long resident = 0;
+  file >> size >> resident;
+  return resident;
+}
+
+TEST_CASE("after a long job the free memory between used blocks goes back to the kernel") {
+  constexpr long kFew = 2'000;
+  constexpr std::size_t kAlmostAPage = 4'000;
+  std::unique_ptr<char[]> kept;
+  long most = 0;
+  WorkerPool pool("a test", 1, 1);
+  const long before = pages_resident();
+  REQUIRE(pool.submit([&] {
+    std::vector<std::unique_ptr<char[]>> blocks(5 * kFew);
+    for (auto& block : blocks) block = std::make_unique<char[]>(kAlmostAPage);
+    kept = std::move(blocks.back());
+    most = pages_resident();
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));  // long
+  }));
+  pool.stop();
+  CHECK(most - before > 4 * kFew);
+  CHECK(pages_resident() - before < kFew);
+}
+#endif
 
 TEST_CASE("a pool refuses what its queue has no room for and finishes what it took") {
   LongJob job;
