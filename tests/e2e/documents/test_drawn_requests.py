@@ -26,7 +26,7 @@ STREAMS = {"interval"}  # parameters that make an answer endless
 class Drawn(ContractTest):
     """Requests drawn from the schemas, every second one spoiled: no answer but what the contract says.
 
-    FITGAUGE_DRAWN is how many for each operation, FITGAUGE_SEED which."""
+    DRAWN_REQUESTS is how many for each operation, DRAWN_SEED which."""
 
     def test_a_path_that_is_cut_in_a_message_stays_utf_8(self):
         for path in ("/v1/files/", "/v1/runs/", "/v1/measurements/", "/v1/setups/"):
@@ -37,8 +37,8 @@ class Drawn(ContractTest):
         self.assertEqual(answer.json["code"], "origin.refused")
 
     def test_no_request_is_answered_but_as_documented(self):
-        count = int(os.environ.get("FITGAUGE_DRAWN", "10"))
-        seed = int(os.environ.get("FITGAUGE_SEED", "1"))
+        count = int(os.environ.get("DRAWN_REQUESTS", "10"))
+        seed = int(os.environ.get("DRAWN_SEED", "1"))
         drawing = Drawing(self.contract, seed, HINTS)
         connection = self.daemon.connect()
         self.addCleanup(connection.close)
