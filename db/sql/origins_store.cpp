@@ -50,6 +50,7 @@ struct OriginsStore::Statements {
   Statement keys{c, select(c, kOriginKeys, "vkey", "WHERE origin = ? ORDER BY number")};
   Statement add_key{c, kOriginKeys.insert(c)};
   Statement base{c, select(c, kOriginBases, "base, size", "WHERE origin = ?")};
+  Statement is_base{c, "SELECT count(*) FROM origin_bases WHERE base = ?"};
   Statement set_base{c, kOriginBases.insert(c)};
   Statement put_node{
       c,
@@ -112,6 +113,10 @@ std::optional<OriginsStore::Base> OriginsStore::base(std::int64_t origin) const 
   if (!rows.next()) return std::nullopt;
   require_sound(rows, 2, kOriginBases);
   return Base{.origin = rows.get<std::int64_t>(0), .size = rows.get<std::int64_t>(1)};
+}
+
+bool OriginsStore::is_base(std::int64_t origin) const {
+  return statements_->is_base.returning<std::int64_t>(origin) > 0;
 }
 
 void OriginsStore::set_base(std::int64_t origin, const Base& base) {

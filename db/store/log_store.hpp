@@ -123,6 +123,7 @@ class OriginsStore {
     std::int64_t size = 0;
   };
   std::optional<Base> base(std::int64_t origin) const;
+  bool is_base(std::int64_t origin) const;  ///< of a branch
   void set_base(std::int64_t origin, const Base& base);
 
   /// Keeps nodes of its tree, as LogStore::grow.

@@ -272,7 +272,8 @@ std::optional<app::AtCentre> ask_centre(const Config& config, std::string_view d
   if (!read) return std::nullopt;
   return app::AtCentre{.centre = (*read)->page.origin,
                        .rows = (*read)->page.size,
-                       .note = (*read)->page.notes.value_or(0)};
+                       .note = (*read)->page.notes.value_or(0),
+                       .is_branched = (*read)->page.is_branched};
 }
 
 std::unique_ptr<forwarder::Forwarder> start_forwarder(const Config& config, app::Application& app,

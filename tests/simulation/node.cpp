@@ -175,7 +175,8 @@ bool Node::start() {
       if (!read) return std::nullopt;
       return app::AtCentre{.centre = (*read)->page.origin,
                            .rows = (*read)->page.size,
-                           .note = (*read)->page.notes.value_or(0)};
+                           .note = (*read)->page.notes.value_or(0),
+                           .is_branched = (*read)->page.is_branched};
     };
   }
   const auto failed = [&](const Error& error) {

@@ -182,6 +182,7 @@ void add_measurement_schemas(Schemas& schemas) {
             {"size", schema::count(), "Records of the station's log that are here"},
             {"notes", schema::count(),
              "The number in the id of the newest of the station's notes that are here; 0: none is"},
+            {"branched", schema::boolean(), "true if a branch of the station's log is here"},
             {"position", schema::text(), "The next request names it in `after`"},
             {"more", schema::boolean(), "true if there is a next page"},
             {"revisions",

@@ -37,6 +37,7 @@ struct AtCentre {
   std::string centre{};   ///< digits of the centre's present history
   std::int64_t rows = 0;  ///< of the history in question that are there
   std::int64_t note = 0;  ///< number of its newest note there; 0: there is none
+  bool is_branched = false;
 };
 
 struct LogOptions {

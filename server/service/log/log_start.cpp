@@ -347,6 +347,7 @@ std::optional<std::string> LogService::why_to_branch(Loaded& loaded) {
     return fmt::format("the centre has {} measurements of this log, and the database has {}",
                        there->rows, loaded.rows);
   }
+  if (there->is_branched) return "the centre has a branch of this log, which the database lacks";
   const auto has_note = database_.readers().wait([&](const store::Stores& stores) -> Result<bool> {
     return there->note == 0 || !stores.notes.own_after(there->note - 1, 1).empty();
   });

@@ -151,6 +151,7 @@ std::string revisions_text(const app::RevisionPage& page) {
       .member("origin", page.origin)
       .member("size", page.size)
       .member("notes", page.notes.value_or(0))
+      .member("branched", page.is_branched)
       .member("position", page.position)
       .member("more", page.more)
       .key("revisions")
@@ -166,6 +167,7 @@ Result<std::unique_ptr<ReadRevisions>> read_revisions(std::string_view body) {
   read->page.origin = text_of(json, "origin");
   read->page.size = number_of(json, "size");
   if (json.find("notes") != nullptr) read->page.notes = number_of(json, "notes");
+  read->page.is_branched = is_true(json, "branched");
   read->page.position = text_of(json, "position");
   read->page.more = is_true(json, "more");
   const JsonValue* revisions = json.find("revisions");

@@ -75,7 +75,8 @@ Result<RevisionPage> RevisionFeed::page(const store::Stores& stores, std::string
                     .more = false,
                     .origin = std::string(origins_.own()),
                     .size = origin ? origin->size : 0,
-                    .notes = origin ? stores.notes.newest_of(origin->number) : 0};
+                    .notes = origin ? stores.notes.newest_of(origin->number) : 0,
+                    .is_branched = origin && stores.origins.is_base(origin->number)};
   std::size_t bytes = 0;
   for (const auto& [number, kind, name] : listed) {
     if (bytes > kMostBytes) {

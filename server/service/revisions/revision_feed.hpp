@@ -58,6 +58,7 @@ struct RevisionPage {
   std::int64_t size = 0;  ///< records of the station's log that are at the centre
   /// Number of the station's newest note at the centre; none: the centre accepts no notes.
   std::optional<std::int64_t> notes{};
+  bool is_branched = false;  ///< the centre has a branch of the station's log
   std::vector<Revision> revisions{};
 };
 

@@ -107,6 +107,25 @@ class Stations(Restored):
         self.assertNotEqual(said[0]["id"], said[1]["id"])
         wait_for(lambda: notes_of(self.centre, record) == said, lambda: self.station.log)
 
+    def test_a_copy_of_the_folder_from_before_a_branch(self):
+        """The centre lacks what came after the copy, and has a branch."""
+        kept = self.store(self.station, "s1")
+        put_back, backup = self.copied("copy"), self.backup(self.station)
+        self.drained()
+        self.centre.stop()
+        lost = self.store(self.station, "s2")
+        self.station.stop()
+        self.restore(self.station, backup)
+        self.centre.start()
+        self.station.start()
+        branch = self.store(self.station, "b2")
+        self.drained()
+        self.station.stop()
+        put_back()
+        self.station.start()
+        self.assert_unique(kept, lost, branch, self.store(self.station, "x2"))
+        self.station.wait_for_log("the centre has a branch of this log")
+
     def test_a_correction_of_what_lies_below_the_branch_reaches_the_centre(self):
         kept = self.store(self.station, "s1 s2")
         copy = self.backup(self.station)
