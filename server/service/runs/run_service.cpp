@@ -32,6 +32,7 @@ RunService::~RunService() { stop(); }
 
 Result<void> RunService::open(RunFormat format) {
   format_ = std::move(format);
+  storing_ = Thread("ends of runs", [this](const std::stop_token& stop) { store_waiting(stop); });
   if (!options_.shares) return close_interrupted();
   looking_ =
       Thread("abandoned runs", [this](const std::stop_token& stop) { look_for_abandoned(stop); });
@@ -55,6 +56,7 @@ void RunService::stop() {
     for (const auto& [id, entry] : active_) entry.run->cancel();
   }
   running_.stop();
+  storing_.stop();
 }
 
 Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
@@ -122,23 +124,17 @@ void RunService::end(ActiveRun& active, ExecutedRun executed) {
   if (executed.result.blocks_executed == 0) {
     executed.result.active_preset = active.order().setup.machine.active_preset;
   }
-  const RunReport report{.id = active.id(),
-                         .origin = origin_of(active.id()),
-                         .program = active.program(),
-                         .result = std::move(executed.result),
-                         .seed = active.order().setup.seed,
-                         .subject = active.order().subject,
-                         .created_at = active.created_at(),
-                         .finished_at = clock_.now()};
+  RunReport report{.id = active.id(),
+                   .origin = origin_of(active.id()),
+                   .program = active.program(),
+                   .result = std::move(executed.result),
+                   .seed = active.order().setup.seed,
+                   .subject = active.order().subject,
+                   .created_at = active.created_at(),
+                   .finished_at = clock_.now()};
   active.being_stored();
-  Result<FinishedRun> kept = Error{ErrorCode::Internal, "the end of the run could not be stored"};
-  guarded("the end of a run", [&] { kept = keep(report, executed.trace, active.order().caller); });
-  {
-    // The place is free before listeners hear of the end.
-    const std::lock_guard lock(mutex_);
-    ++ended_[static_cast<std::size_t>(state_of(report.result.status))];
-    active_.erase(report.id);
-  }
+  // The place is free before listeners hear of the end.
+  auto kept = keep_or_wait({std::move(report), std::move(executed.trace), active.order().caller});
   guarded("the end of a run", [&] { active.finished(std::move(kept)); });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <condition_variable>
 #include <functional>
 #include <map>
 #include <memory>
@@ -163,6 +164,15 @@ class RunService {
   void run(const std::shared_ptr<ActiveRun>& run);
   bool withdraw(std::int64_t id);
   void end(ActiveRun& active, ExecutedRun executed);
+  /// The end of a run on its way to the store.
+  struct End {
+    RunReport report;
+    std::string trace;
+    std::optional<std::string> caller;
+  };
+  /// Stores the end, or, while the storage takes nothing, leaves it to store_waiting().
+  Result<FinishedRun> keep_or_wait(End end);
+  void store_waiting(const std::stop_token& stop);
   ExecutedRun execute_guarded(ActiveRun& active);
   ExecutedRun without_moves(interpreter::RunResult result) const;
   Result<FinishedRun> keep(const RunReport& report, std::string_view trace,
@@ -196,9 +206,12 @@ class RunService {
   };
   std::map<std::int64_t, Entry> active_;  ///< queued or running: all runs are counted here
   Counts ended_{};
+  std::vector<End> waiting_ends_;  ///< of runs that are over and still in active_
+  std::condition_variable_any end_waits_;
   std::shared_ptr<ActiveRun> newest_;
   // The workers must end before the members that they use.
   WorkerPool running_;
+  Thread storing_;                      ///< of the ends that wait
   Thread looking_;                      ///< for abandoned runs
   std::unique_ptr<SharedRuns> shared_;  ///< if daemons share the database
 };

@@ -147,6 +147,36 @@ Result<FinishedRun> RunService::keep(const RunReport& report, std::string_view t
   }
 }
 
+Result<FinishedRun> RunService::keep_or_wait(End end) {
+  Result<FinishedRun> kept = Error{ErrorCode::Internal, "the end of the run could not be stored"};
+  guarded("the end of a run", [&] { kept = keep(end.report, end.trace, end.caller); });
+  const std::lock_guard lock(mutex_);
+  if (!kept && (kept.error().code == ErrorCode::StorageUnavailable ||
+                kept.error().code == ErrorCode::StorageBusy)) {
+    waiting_ends_.push_back(std::move(end));
+    end_waits_.notify_one();
+  } else {
+    ++ended_[static_cast<std::size_t>(state_of(end.report.result.status))];
+    active_.erase(end.report.id);
+  }
+  return kept;
+}
+
+void RunService::store_waiting(const std::stop_token& stop) {
+  constexpr std::chrono::seconds kBetween{1};
+  for (;;) {
+    std::unique_lock lock(mutex_);
+    end_waits_.wait(lock, stop, [this] { return !waiting_ends_.empty(); });
+    std::vector<End> ends = std::exchange(waiting_ends_, {});
+    lock.unlock();
+    if (!wait_unless_stopped(stop, kBetween)) return;  // the next start marks the runs as failed
+    for (End& end : ends) {
+      end.report.finished_at = clock_.now();  // records never go back in time
+      static_cast<void>(keep_or_wait(std::move(end)));
+    }
+  }
+}
+
 void RunService::find(std::int64_t id, Done<StoredRun> done) {
   database_.readers().submit(
       [this, id](const store::Stores& stores) -> Result<StoredRun> {

@@ -1,6 +1,7 @@
 """A disk that is full, read-only or failing: 503, reads go on, nothing acknowledged is lost, and the
 service recovers by itself."""
 
+import concurrent.futures
 import contextlib
 import http.client
 import os
@@ -12,6 +13,7 @@ import tempfile
 import time
 import unittest
 
+from support.control import FOREVER
 from support.daemon import TRACEABLE, Daemon
 from support.tracing import attach, can_trace
 from support.waiting import PATIENCE, wait_for
@@ -60,18 +62,19 @@ class FullDisk(FaultTest):
         subprocess.run(["mount", "-t", "tmpfs", "-o", "size=12m", "none", self.folder], check=True)
         self.addCleanup(subprocess.run, ["umount", "-l", self.folder], check=True)
 
+    def fill(self):
+        ballast = self.folder / "ballast"
+        with open(ballast, "wb", buffering=0) as file, contextlib.suppress(OSError):
+            while True:
+                file.write(b"x" * 4096)
+        return ballast
+
     def test_it_refuses_goes_on_reading_and_recovers(self):
         daemon = self.make_daemon(data=self.folder / "data")
         daemon.start()
         with Writers(daemon, 4) as writers:
             wait_for(lambda: writers.acknowledged, "a value")
-            ballast = self.folder / "ballast"
-            with open(ballast, "wb", buffering=0) as file:
-                try:
-                    while True:
-                        file.write(b"x" * 4096)
-                except OSError:
-                    pass
+            ballast = self.fill()
             answer = wait_for(lambda: (found := daemon.measure([PART] * 500)).status != 201 and found, "a full disk")
             self.assert_unavailable(answer, "full")
             before = dict(writers.acknowledged)
@@ -104,13 +107,35 @@ class FullDisk(FaultTest):
         self.assertEqual(os.statvfs(self.folder).f_bfree, free)
         self.wait_until_stored(daemon)
 
+    def test_a_run_that_ends_on_a_full_disk_is_over_when_there_is_room(self):
+        daemon = self.make_daemon(data=self.folder / "data").start()
+        program = "BEGIN PGM FOREVER MM\n" + "\n".join(FOREVER) + "\nEND PGM FOREVER MM\n"
+        self.assertEqual(daemon.request("PUT", "/v1/files/forever.h", program.encode()).status, 201)
+        order = {"program": "TNC:\\FOREVER.H", "limits": {"blocks": 100_000_000, "seconds": 60}}
+
+        def post():
+            return daemon.post("/v1/runs", order, {"Idempotency-Key": "once"})
+
+        with concurrent.futures.ThreadPoolExecutor() as pool:
+            first = pool.submit(post)
+            run, = wait_for(lambda: daemon.get("/v1/runs?status=running").json["runs"], "the run")
+            ballast = self.fill()
+            place = f"/v1/runs/{run['id']}"
+            self.assert_unavailable(daemon.request("DELETE", place), "full")
+            self.assert_unavailable(first.result(PATIENCE), "full")
+        self.assertEqual(daemon.get(place).json["status"], "running")
+        self.assertEqual(post().json["code"], "idempotency.in_progress")
+        ballast.unlink()
+        stored = wait_for(lambda: (found := daemon.get(place).json)["status"] != "running" and found, "the end of the run")
+        self.assertEqual(stored["status"], "cancelled")
+        repeated = post()
+        self.assertEqual((repeated.status, repeated.headers["idempotency-replayed"]), (201, "true"), repeated)
+        self.assertEqual(repeated.json, stored)
+        self.assertEqual(daemon.stop(), 0)
+        self.assertEqual(daemon.command("verify").returncode, 0)
+
     def test_a_start_on_a_full_disk_says_so(self):
-        with open(self.folder / "ballast", "wb", buffering=0) as file:
-            try:
-                while True:
-                    file.write(b"x" * 4096)
-            except OSError:
-                pass
+        self.fill()
         daemon = self.make_daemon(data=self.folder / "data")
         daemon.spawn()
         self.assertEqual(daemon.process.wait(PATIENCE), 1)
