@@ -40,11 +40,10 @@ Key private_key(const SigningKey::Seed& seed) {
   return key;
 }
 
-VerifierKey::Bytes public_key(const SigningKey::Seed& seed) {
+VerifierKey::Bytes public_key(EVP_PKEY* key) {
   VerifierKey::Bytes bytes{};
   std::size_t size = bytes.size();
-  const Key key = private_key(seed);
-  require(EVP_PKEY_get_raw_public_key(key.get(), bytes.data(), &size) == 1);
+  require(EVP_PKEY_get_raw_public_key(key, bytes.data(), &size) == 1);
   return bytes;
 }
 
@@ -129,7 +128,9 @@ bool VerifierKey::verifies(std::string_view message, const Signature& signature)
 }
 
 SigningKey::SigningKey(std::string name, const Seed& seed)
-    : seed_(seed), verifier_(std::move(name), public_key(seed)) {}
+    : SigningKey(std::move(name), seed, private_key(seed)) {}
+SigningKey::SigningKey(std::string name, const Seed& seed, std::shared_ptr<evp_pkey_st> key)
+    : seed_(seed), key_(std::move(key)), verifier_(std::move(name), public_key(key_.get())) {}
 
 SigningKey SigningKey::make(std::string name) {
   Seed seed{};
@@ -154,12 +155,11 @@ std::string SigningKey::text() const {
 }
 
 VerifierKey::Signature SigningKey::sign(std::string_view message) const {
-  const Key key = private_key(seed_);
   const Context context(EVP_MD_CTX_new());
   VerifierKey::Signature signature{};
   std::size_t size = signature.size();
   require(context != nullptr &&
-          EVP_DigestSignInit(context.get(), nullptr, nullptr, nullptr, key.get()) == 1 &&
+          EVP_DigestSignInit(context.get(), nullptr, nullptr, nullptr, key_.get()) == 1 &&
           EVP_DigestSign(context.get(), signature.data(), &size, bytes_of(message),
                          message.size()) == 1);
   return signature;

@@ -2,11 +2,14 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "base/result.hpp"
+
+struct evp_pkey_st;
 
 namespace fitgauge::tlog {
 
@@ -62,11 +65,14 @@ class SigningKey {
 
   const VerifierKey& verifier() const { return verifier_; }
   /// Returns this key under another name. @pre is_key_name(name).
-  SigningKey named(std::string name) const { return {std::move(name), seed_}; }
+  SigningKey named(std::string name) const { return {std::move(name), seed_, key_}; }
   VerifierKey::Signature sign(std::string_view message) const;
 
  private:
+  SigningKey(std::string name, const Seed& seed, std::shared_ptr<evp_pkey_st> key);
+
   Seed seed_;
+  std::shared_ptr<evp_pkey_st> key_;  ///< of the seed, which takes long to make
   VerifierKey verifier_;
 };
 
