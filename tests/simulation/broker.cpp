@@ -44,6 +44,7 @@ struct mosquitto {
 namespace {
 
 std::map<int, mosquitto*> sockets;
+std::map<int, bool> events;  ///< by descriptor: whether it has rung since it was last seen at rest
 int last_socket = kFirstSocket;
 
 int socket_of(const mosquitto* client) {
@@ -181,15 +182,23 @@ int mosquitto_publish(mosquitto* client, int* mid, const char* topic, int size, 
   return MOSQ_ERR_SUCCESS;
 }
 
+int eventfd(unsigned value, int flags) noexcept {
+  static auto* const call = reinterpret_cast<decltype(eventfd)*>(dlsym(RTLD_NEXT, "eventfd"));
+  const int file = call(value, flags);
+  events[file] = true;
+  return file;
+}
+
 int eventfd_write(int file, eventfd_t value) {
   static auto* const call =
       reinterpret_cast<decltype(eventfd_write)*>(dlsym(RTLD_NEXT, "eventfd_write"));
   const int done = call(file, value);
+  events[file] = true;
   ring(&bell);
   return done;
 }
 
-/// Sockets of clients are ready when something has arrived; descriptors of events are real.
+/// Sockets of clients are ready when something has arrived; others are descriptors of events.
 int poll(pollfd* files, nfds_t count, int milliseconds) {
   static auto* const call = reinterpret_cast<decltype(poll)*>(dlsym(RTLD_NEXT, "poll"));
   const std::int64_t until = world_now() + milliseconds * kMillisecond;
@@ -199,7 +208,9 @@ int poll(pollfd* files, nfds_t count, int milliseconds) {
     for (pollfd* file = files; file != files + count; ++file) {
       file->revents = 0;
       if (file->fd < kFirstSocket) {
-        ready += call(file, 1, 0);
+        bool& has_rung = events[file->fd];
+        if (has_rung) has_rung = call(file, 1, 0) > 0;
+        ready += has_rung ? 1 : 0;
       } else if (const auto found = sockets.find(file->fd); found != sockets.end()) {
         const auto& arriving = found->second->arriving;
         if (arriving.empty()) continue;

@@ -55,6 +55,7 @@ struct Outcome {
 
 void run(const std::filesystem::path& folder, std::uint64_t seed, std::uint64_t days,
          Outcome& outcome) {
+  keep_memory_of_sqlite();
   begin_world();
   seed_world(seed);
   sqlite3_randomness(0, nullptr);  // it draws anew

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <setjmp.h>
 #include <ucontext.h>
 
 #include <vector>
@@ -9,7 +10,9 @@ namespace fitgauge::simulation {
 /// Where a thread of the world is while another runs. All are of one thread of the kernel, which
 /// goes from stack to stack and takes the variables of a thread along.
 struct Place {
-  ucontext_t context{};
+  ucontext_t context{};  ///< of its beginning
+  jmp_buf left_at{};
+  bool has_left = false;
   void* stack = nullptr;
   std::vector<char> locals{};
   int error = 0;
@@ -17,8 +20,8 @@ struct Place {
 
 /// It begins with a call that does not return, on a stack of its own.
 void begin_at(Place& place, void (*call)());
-void go(Place& from, const Place& to);
+void go(Place& from, Place& to);
 /// Nobody comes back: its stack is free.
-[[noreturn]] void go_for_ever(Place& from, const Place& to);
+[[noreturn]] void go_for_ever(Place& from, Place& to);
 
 }  // namespace fitgauge::simulation

@@ -31,6 +31,8 @@ constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kFirstDay = 1'800'000'000 * kSecond;  ///< of the clock on the wall
 constexpr std::int64_t kGlance = 1'000;  ///< each reading of the time takes a microsecond
 constexpr std::uint64_t kYieldsOneIn = 32;
+constexpr int kUnderWay = 1;  ///< of a pthread_once_t, as glibc has it
+constexpr int kDone = 2;
 
 struct Task : Place {
   Machine* machine = nullptr;
@@ -325,6 +327,27 @@ int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept {
 int pthread_mutex_unlock(pthread_mutex_t* mutex) noexcept {
   static auto* const unlock_it = real<decltype(pthread_mutex_unlock)>("pthread_mutex_unlock");
   return self == nullptr ? unlock_it(mutex) : unlock(*mutex);
+}
+
+/// Each promise of std is kept through it, with a call of the kernel for those who may wait.
+int pthread_once(pthread_once_t* once, void (*begin)()) {
+  static auto* const real_once = real<decltype(pthread_once)>("pthread_once");
+  if (self == nullptr) return real_once(once, begin);
+  while (*once == kUnderWay) wait_on(once);
+  if (*once == kDone) return 0;
+  *once = kUnderWay;
+  const auto end = [once](int state) {
+    *once = state;
+    wake(once);
+  };
+  try {
+    begin();
+  } catch (...) {
+    end(PTHREAD_ONCE_INIT);
+    throw;
+  }
+  end(kDone);
+  return 0;
 }
 
 int pthread_rwlock_rdlock(pthread_rwlock_t* rw) noexcept {

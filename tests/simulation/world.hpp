@@ -30,6 +30,9 @@ void begin_world();
 /// From here on all is drawn from this seed, and the time begins anew.
 void seed_world(std::uint64_t seed);
 
+/// Before anything of SQLite is called.
+void keep_memory_of_sqlite();
+
 /// SplitMix64.
 struct Random {
   std::uint64_t state;
