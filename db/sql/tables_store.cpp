@@ -14,14 +14,15 @@ namespace {
 
 using sql::Rows;
 
-/// Stored cells come sorted.
-void sort(auto& cells) {
-  if (!std::is_sorted(cells.begin(), cells.end())) std::sort(cells.begin(), cells.end());
+bool is_sorted(const TableContent& content) {
+  return std::is_sorted(content.cells.begin(), content.cells.end()) &&
+         std::is_sorted(content.custom.begin(), content.custom.end());
 }
 
-void sort(TableContent& content) {
-  sort(content.cells);
-  sort(content.custom);
+TableContent sorted(TableContent content) {
+  std::sort(content.cells.begin(), content.cells.end());
+  std::sort(content.custom.begin(), content.custom.end());
+  return content;
 }
 
 bool is_valid(const TableCell& cell) { return cell.over_nm >= 0 && cell.over_nm < cell.up_to_nm; }
@@ -104,6 +105,20 @@ struct TablesStore::Statements {
     return read_revision(rows);
   }
 
+  /// Adds the number of cells and the cells, which come sorted.
+  void add(CanonicalDigest& digest, std::string_view place, sql::Statement& query,
+           std::int64_t number) {
+    sql::Statement counting(c, fmt::format("SELECT count(*) FROM {}", place));
+    digest.add(counting.returning<std::int64_t>(number));
+    for (Rows rows = query.query(number); rows.next();) {
+      digest.add(rows.get<std::string_view>(0));
+      digest.add(rows.get<std::string_view>(1));
+      for (int i = 2; i < rows.columns(); ++i) {
+        digest.add(rows.get<std::optional<std::int64_t>>(i));
+      }
+    }
+  }
+
   std::optional<LoadedTables> load(std::optional<TableRevision> revision) {
     if (!revision) return std::nullopt;
     LoadedTables loaded{.revision = *std::move(revision), .content = {}, .computed = {}};
@@ -140,8 +155,8 @@ struct TablesStore::Statements {
 
 std::string shown_digits(const Digest& digest) { return to_hex(digest).substr(0, kShownDigits); }
 
-Digest digest_of(TableContent content) {
-  sort(content);
+Digest digest_of(const TableContent& content) {
+  if (!is_sorted(content)) return digest_of(sorted(content));  // stored cells come sorted
   CanonicalDigest digest;
   const auto add_all = [&digest](const auto&... values) { (digest.add(values), ...); };
   digest.add(content.cells.size());
@@ -169,8 +184,7 @@ Result<TableRevision> TablesStore::import(const TableImport& tables, std::int64_
         fmt::format("the current tables are revision {}: read them again and repeat the change",
                     newest ? newest->id : "none")};
   }
-  TableContent content = tables.content;
-  sort(content);
+  const TableContent content = sorted(tables.content);
   if (const TableCell* cell = first_invalid(content.cells)) return invalid(*cell);
   if (const CustomCell* cell = first_invalid(content.custom)) return invalid(*cell);
 
@@ -200,6 +214,16 @@ std::optional<LoadedTables> TablesStore::load(std::string_view id) const {
   std::optional<LoadedTables> loaded = load(number);
   if (loaded && loaded->revision.id != id) loaded.reset();
   return loaded;
+}
+
+Digest TablesStore::compute_digest(std::int64_t number) const {
+  CanonicalDigest digest;
+  statements_->add(
+      digest,
+      "table_cells WHERE table_set = (SELECT table_set FROM table_revisions WHERE number = ?)",
+      statements_->cells, number);
+  statements_->add(digest, "custom_cells WHERE revision = ?", statements_->custom, number);
+  return digest.finish();
 }
 
 std::vector<TableRevision> TablesStore::list() const {

@@ -50,7 +50,7 @@ struct TableContent {
 
 /// Digests the content in sorted order, independent of the order given (canonical_digest.hpp): the
 /// number of cells, the members of each cell in order, then number and members of the custom cells.
-Digest digest_of(TableContent content);
+Digest digest_of(const TableContent& content);
 
 struct TableRevision {
   std::int64_t number = 0;  ///< 1, 2, …: measurements refer to it
@@ -96,6 +96,8 @@ class TablesStore {
   std::optional<LoadedTables> load_latest() const;
   std::optional<LoadedTables> load(std::string_view id) const;
   std::optional<LoadedTables> load(std::int64_t number) const;
+  /// As `LoadedTables::computed`, without the content. @pre the database sorts texts by bytes.
+  Digest compute_digest(std::int64_t number) const;
   std::vector<TableRevision> list() const;  ///< oldest first
 
  private:

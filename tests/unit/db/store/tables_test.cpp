@@ -115,4 +115,7 @@ TEST_CASE("a changed cell shows in the computed digest") {
   fixture.execute("UPDATE table_cells SET value_nm = 53000 WHERE column_name = 'IT7'");
   const auto loaded = latest(fixture);
   CHECK(loaded->computed != loaded->revision.digest);
+  const auto computed = fixture.read(
+      [](const Stores& stores) -> Result<Digest> { return stores.tables.compute_digest(1); });
+  CHECK(computed.value() == loaded->computed);
 }
