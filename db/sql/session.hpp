@@ -52,7 +52,7 @@ class HealthMonitor {
 namespace fitgauge::store::sql {
 
 /// A connection with its stores, and the limits of its transactions. Used by one thread. After a
-/// StorageFailure it is closed and another is opened.
+/// StorageFailure it is closed and another is opened, unless it stays reliable.
 class Session {
  public:
   Session& operator=(Session&&) = delete;  // neither copied nor moved
@@ -66,6 +66,8 @@ class Session {
   /// commits.
   virtual void begin_writing() = 0;
   virtual void commit() = 0;
+  /// Whether it can be used again, rolled back, after the call that failed just now.
+  virtual bool is_reliable() const { return false; }
   /// Rolls back; allowed after a commit() that failed.
   virtual void rollback() noexcept = 0;
 

@@ -305,11 +305,12 @@ void Writer::Engine::succeed() {
   health_.writes_succeeded();
 }
 
-/// After a failure the connection is opened again, because its memory is not reliable.
+/// After most failures the connection is opened again, because its memory is not reliable.
 void Writer::Engine::fail(const Error& error) {
   ++counters_.failed_commits;
+  const bool is_reliable = session_ && session_->is_reliable();
   if (session_) session_->rollback();
-  session_.reset();
+  if (!is_reliable) session_.reset();
   failing_ = true;
   if (error.code == ErrorCode::StorageCorrupt) {
     health_.damaged(error.message);

@@ -115,6 +115,8 @@ class Session : public sql::Session {
   void begin_reading() override { begin_reading_.run(); }
   void begin_writing() override { begin_writing_.run(); }
   void commit() override { commit_.run(); }
+  /// A disk that is full has taken nothing, and SQLite knows what it has.
+  bool is_reliable() const override { return sqlite3_errcode(connection.handle()) == SQLITE_FULL; }
   void rollback() noexcept override { connection.rollback(); }
   void savepoint() override { savepoint_.run(); }
   void undo() override { undo_.run(); }

@@ -140,7 +140,8 @@ class ReadPool {
 /// then delivers the outcomes. There is no timer: a single job is committed at once.
 ///
 /// Thread-safe. After a failed commit every job of its batch is refused with StorageUnavailable;
-/// the connection is opened again, and nothing is delivered before a commit succeeded.
+/// unless the disk was full, the connection is opened again, and nothing is delivered before a
+/// commit succeeded.
 class Writer {
  public:
   class Engine;
