@@ -125,8 +125,8 @@ Delivery Mqtt::publish(const Items& items, const std::stop_token& stop, const Co
       if (stop.stop_requested()) return delivery;
       // Ends the connection of a broker that is out of step: a new connection sends pending
       // messages again.
-      delivery.failure =
-          link_.give_up(reason ? mqtt_reason(*reason) : "the broker does not acknowledge messages");
+      delivery.failure = reason ? link_.refused(mqtt_reason(*reason))
+                                : link_.give_up("the broker does not acknowledge messages");
       return delivery;
     }
     if (*reason != 0) {

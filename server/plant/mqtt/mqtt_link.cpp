@@ -163,6 +163,11 @@ std::string MqttLink::give_up(std::string_view why) {
   const auto client = std::exchange(client_, nullptr);
   const bool is_lost = client == nullptr || !client->is_connected();
   if (is_lost) return client == nullptr ? std::string(why) : client->failure();
+  return refused(why);
+}
+
+std::string MqttLink::refused(std::string_view why) {
+  client_ = nullptr;
   return fmt::format("the broker {}: {}", to_text(broker_.address), why);
 }
 

@@ -63,6 +63,9 @@ class MqttLink {
   /// Ends the connection; the broker publishes the will.
   /// @returns why it was lost or, if it was not, `why` with the broker's name.
   std::string give_up(std::string_view why);
+  /// Ends the connection after a refusal, after which the broker may have ended it too.
+  /// @returns `why` with the broker's name.
+  std::string refused(std::string_view why);
   /// @pre connect succeeded
   MqttClient& client() { return *client_; }
 

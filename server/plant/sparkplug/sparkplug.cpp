@@ -56,8 +56,8 @@ std::optional<std::string> Sparkplug::subscribe(const std::string& topic,
   const auto ticket = link_.client().subscribe(topic, 1);
   const auto reason = link_.client().wait_settled(ticket, kLongestSilence, stop);
   if (reason == 0) return std::nullopt;
-  return link_.give_up(reason ? fmt::format("it refuses to subscribe to {}", topic)
-                              : "it does not answer");
+  return reason ? link_.refused(fmt::format("it refuses to subscribe to {}", topic))
+                : link_.give_up("it does not answer");
 }
 
 std::optional<std::string> Sparkplug::connect(const std::stop_token& stop) {
