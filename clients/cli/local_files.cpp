@@ -62,7 +62,9 @@ fs::path followed(fs::path path) {
   std::error_code none;
   for (int links = 0; links < kMostLinks && !names_descriptor(path); ++links) {
     if (!fs::is_symlink(path, none)) break;
-    path = path.parent_path() / fs::read_symlink(path, none);
+    const fs::path next = path.parent_path() / fs::read_symlink(path, none);
+    if (fs::exists(path, none) && !fs::exists(next, none)) break;  // as /proc/7/fd/1 to a pipe
+    path = next;
   }
   return path;
 }

@@ -63,6 +63,13 @@ class Outputs(ClientTest):
                 self.assertEqual(done.returncode, 0)
                 self.assertTrue((self.folder / "all.csv").read_text().startswith("mineid,"))
 
+    def test_a_pipe_of_another_process_is_written_to(self):
+        reading, writing = os.pipe()
+        with open(reading, "rb") as reader:
+            self.assert_runs(0, "export", "-o", f"/proc/{os.getpid()}/fd/{writing}")
+            os.close(writing)
+            self.assertTrue(reader.read().startswith(b"id,"))
+
     def test_a_link_stays_a_link(self):
         for target in ("all.csv", "new.csv"):
             (self.folder / "link").symlink_to(target)
