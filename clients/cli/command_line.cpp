@@ -1,5 +1,6 @@
 #include "cli/command_line.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -127,9 +128,18 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("{}{} see {} --help", what, what.ends_with('?') ? "" : ";", name);
 }
 
+/// Fills closed standard descriptors with one that is neither read nor written: otherwise the next
+/// socket would take their place.
+void occupy_standard_descriptors() {
+  int opened = 0;
+  while (opened >= 0 && opened <= STDERR_FILENO) opened = ::open("/", O_PATH);
+  if (opened >= 0) close(opened);
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
+  occupy_standard_descriptors();
   std::signal(SIGXFSZ, SIG_IGN);  // a file at its size limit is an error of a write
   CLI::App app(
       "Command line of the fitgauge service: look up limits and fits, judge and store "

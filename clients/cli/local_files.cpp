@@ -168,6 +168,10 @@ OutputFile::~OutputFile() {
 
 bool OutputFile::open(int descriptor) {
   if (descriptor >= 0) file_.reset(fdopen(descriptor, "wb"));
+  if (descriptor >= 0 && !file_) {  // opened for reading, or occupied
+    close(descriptor);
+    errno = EBADF;
+  }
   return file_ != nullptr;
 }
 

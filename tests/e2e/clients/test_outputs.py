@@ -63,6 +63,14 @@ class Outputs(ClientTest):
                 self.assertEqual(done.returncode, 0)
                 self.assertTrue((self.folder / "all.csv").read_text().startswith("mineid,"))
 
+    def test_a_closed_standard_output_is_an_error(self):
+        for arguments in ("export", "export -o -", "export -o /dev/fd/1", "limits 25H7"):
+            with self.subTest(arguments):
+                done = subprocess.run(["sh", "-c", f'exec "$0" {arguments} >&-', FITGAUGE], stderr=subprocess.PIPE,
+                                      env=self.client.environment, timeout=PATIENCE, check=False, text=True)
+                self.assertEqual(done.returncode, 5, done.stderr)
+                self.assertIn("written" if arguments == "limits 25H7" else "cannot write it: Bad file", done.stderr)
+
     def test_a_pipe_of_another_process_is_written_to(self):
         reading, writing = os.pipe()
         with open(reading, "rb") as reader:
