@@ -302,7 +302,12 @@ std::optional<std::string> LogService::told_by(const TreeNames& tree, std::int64
   };
   if (std::any_of(loaded.branches.begin(), loaded.branches.end(), is_former)) return std::nullopt;
   if (!kept || kept->origin != tree.name(*loaded.state.name)) {
+    // A service that joins others after it was used with another database.
+    const bool is_new_here =
+        options_.shares &&
+        !name_in_folder(options_.directory, digits_of_origin(loaded.state.origin));
     set_aside(tree.file, "of another log or key");
+    if (is_new_here) return std::nullopt;
     return "the folder has signed another log than the database's";
   }
   if (kept->size <= static_cast<std::uint64_t>(leaves)) {

@@ -365,6 +365,20 @@ class SharedDatabases(Restored):
             self.assertEqual(each.get(f"/v1/measurements?after={lost[0]}").json["code"], "cursor.invalid")
         self.assert_clean(daemon, "--database", cluster.address("live"))
 
+    def test_a_folder_of_another_database_joins_running_services(self):
+        cluster = Cluster("fsync=off").start()
+        self.addCleanup(cluster.cleanup)
+        daemon, other = self.made("--database", cluster.address()).start(), self.made().start()
+        self.store(other, "f1")
+        wait_for_size(other, 1)
+        self.assertEqual(other.stop(), 0)
+        other.flags += ["--database", cluster.address()]
+        other.start()
+        other.wait_for_log('"event":"log_file_set_aside"')
+        given = self.store(other, "d1") + self.store(daemon, "d2")
+        self.assertEqual(len({record.split("-")[1] for record in given}), 1)
+        self.assertNotIn('"event":"log_branched"', other.log)
+
     def test_a_dump_is_restored_and_the_service_that_knows_least_starts_first(self):
         self.restore_a_dump(("DROP DATABASE live", "postgres"), ("CREATE DATABASE live", "postgres"))
 
