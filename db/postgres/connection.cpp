@@ -17,9 +17,10 @@ std::string first_line(std::string_view text) {
 }
 
 /// Classes of SQLSTATE that are not the statement's fault: connection, transaction rolled back,
-/// resources, an operator's action, the system, and a read-only server.
-constexpr std::array<std::string_view, 8> kOfTheServer = {"08", "40", "53", "54",
-                                                          "57", "58", "25", "55"};
+/// resources, an operator's action, the system, a read-only server, and a table that is missing, as
+/// during a restore.
+constexpr std::array<std::string_view, 9> kOfTheServer = {"08", "40", "53", "54",   "57",
+                                                          "58", "25", "55", "42P01"};
 constexpr std::string_view kDamaged = "XX001";
 constexpr std::string_view kDamagedIndex = "XX002";
 

@@ -10,7 +10,9 @@ namespace {
 
 /// Positions in the WAL as numbers. A transaction sees data written before its first statement.
 constexpr const char* kHead =
-    "SELECT last_id, own_rows, names, (pg_current_wal_insert_lsn() - '0/0')::bigint FROM head";
+    "SELECT last_id, own_rows, names, (pg_current_wal_insert_lsn() - '0/0')::bigint,"
+    " coalesce((SELECT xmin::text::bigint FROM schema_migrations ORDER BY number LIMIT 1), 0)"
+    " FROM head";
 constexpr const char* kFlushed = "SELECT (pg_current_wal_flush_lsn() - '0/0')::bigint";
 
 /// A waiting transaction is woken twice, as the next one and as the owner, and then reads the row
@@ -55,6 +57,18 @@ void Position::saw(std::int64_t last_id) {
 void Position::require() const {
   const std::lock_guard lock(mutex_);
   if (!why_.empty()) throw StorageFailure({ErrorCode::StorageUnavailable, why_});
+}
+
+bool Position::is_first_row(std::int64_t version) {
+  std::int64_t known = 0;
+  return version != 0 && (first_row_.compare_exchange_strong(known, version) || known == version);
+}
+
+void Position::restored() {
+  const std::string why = "the database was restored, or is being restored";
+  if (first_row_ != 0) set_back(why);
+  require();
+  throw StorageFailure({ErrorCode::StorageUnavailable, why});
 }
 
 void Position::set_back(const std::string& why) {
@@ -106,8 +120,8 @@ void Session::read_head(sql::Statement& head) {
   const std::int64_t newest = position_.newest();
   {
     sql::Rows rows = head.query();
-    if (!rows.next()) {
-      throw StorageFailure({ErrorCode::StorageCorrupt, "the database has lost its row head"});
+    if (!rows.next() || !position_.is_first_row(rows.get<std::int64_t>(4))) {
+      position_.restored();
     }
     connection_.head = {.last_id = rows.get<std::int64_t>(0),
                         .own_rows = rows.get<std::int64_t>(1),

@@ -49,6 +49,11 @@ class Position {
 
   std::int64_t newest() const { return newest_; }
   void saw(std::int64_t last_id);
+  /// Whether the database's first row has the version that this daemon found first; 0: no row. A
+  /// restore writes it anew, also if the copy is as long as what this daemon knows.
+  bool is_first_row(std::int64_t version);
+  /// @throws StorageFailure, for good if this daemon has used the database before.
+  [[noreturn]] void restored();
   /// @throws StorageFailure after set_back().
   void require() const;
   void set_back(const std::string& why);
@@ -56,6 +61,7 @@ class Position {
  private:
   const std::function<void(const std::string&)> set_back_;
   std::atomic<std::int64_t> newest_{0};
+  std::atomic<std::int64_t> first_row_{0};
   mutable std::mutex mutex_;
   std::string why_;
 };

@@ -18,6 +18,10 @@ from support.receiver import Receiver
 from support.waiting import wait_for
 
 
+TRUNCATE = ("SET session_replication_role = replica; DO $$ BEGIN EXECUTE (SELECT 'TRUNCATE ' || string_agg("
+            "'fitgauge.' || tablename, ', ') FROM pg_tables WHERE schemaname = 'fitgauge'); END $$")
+
+
 def parts(names):
     return [{**PART, "part_id": name} for name in names.split()]
 
@@ -386,9 +390,7 @@ class SharedDatabases(Restored):
         self.restore_a_dump(("DROP SCHEMA fitgauge CASCADE", "live"))
 
     def test_a_dump_is_restored_into_the_same_tables(self):
-        truncate = ("SET session_replication_role = replica; DO $$ BEGIN EXECUTE (SELECT 'TRUNCATE ' || string_agg("
-                    "'fitgauge.' || tablename, ', ') FROM pg_tables WHERE schemaname = 'fitgauge'); END $$")
-        self.restore_a_dump((truncate, "live"), options=("--data-only", "--disable-triggers"))
+        self.restore_a_dump((TRUNCATE, "live"), options=("--data-only", "--disable-triggers"))
 
     def restore_a_dump(self, *emptied, options=()):
         cluster = Cluster("fsync=off").start()
@@ -431,14 +433,52 @@ class SharedDatabases(Restored):
         cluster.dump("postgres", dump := daemon.folder / "dump")
         self.store(daemon, "d2")
         cluster.query("DROP SCHEMA fitgauge CASCADE")
+        answer = daemon.measure(PART)
+        self.assertEqual((answer.status, answer.json["code"]), (503, "storage.unavailable"))
         cluster.restore("postgres", dump, "--section=pre-data")
-        wait_for(lambda: daemon.measure(PART).json["code"] == "storage.corrupt", lambda: daemon.log)
+        answer = daemon.measure(PART)
+        self.assertEqual((answer.status, answer.json["code"]), (503, "storage.unavailable"))
         cluster.restore("postgres", dump, "--section=data", "--section=post-data")
         self.assert_refuses(daemon)
         finding, = daemon.get("/readyz").json["errors"]
         self.assertEqual(finding["code"], "storage.unavailable")
-        self.assertIn("an older copy was restored", finding["detail"])
-        self.assertEqual(daemon.log.count("an older copy was restored"), 1)
+        self.assertIn("was restored, or is being restored", finding["detail"])
+        self.assertEqual(daemon.log.count("was restored, or is being restored"), 1)
+
+    def test_a_copy_as_long_as_a_service_knows_is_noticed(self):
+        for emptied, *options in (("DROP SCHEMA fitgauge CASCADE",), (TRUNCATE, "--data-only", "--disable-triggers")):
+            with self.subTest(emptied):
+                self.restore_as_much_as_known(emptied, options)
+
+    def restore_as_much_as_known(self, emptied, options):
+        cluster = Cluster("fsync=off").start()
+        self.addCleanup(cluster.cleanup)
+        daemon, other = (self.made("--database", cluster.address()).start() for _ in range(2))
+        kept = self.store(daemon, "d1")
+        cluster.dump("postgres", dump := daemon.folder / "dump")
+        begun = "SELECT count(*) FROM pg_stat_activity WHERE application_name = 'fitgauged' AND xact_start IS NOT NULL"
+
+        def is_paused():  # outside of a transaction
+            daemon.process.send_signal(signal.SIGSTOP)
+            if cluster.query(begun) == [["0"]]:
+                return True
+            daemon.process.send_signal(signal.SIGCONT)
+            return False
+
+        wait_for(is_paused, lambda: cluster.query("SELECT state, query FROM pg_stat_activity"))
+        lost = self.store(other, "d2 d3")
+        cluster.query(emptied)
+        cluster.restore("postgres", dump, *options)
+        daemon.process.send_signal(signal.SIGCONT)
+        for each in (daemon, other):
+            self.assertEqual(each.measure(PART).status, 503)
+            self.assert_refuses(each)
+        for each in (daemon, other):
+            each.stop()
+            each.start()
+        new = self.store(daemon, "n2") + self.store(other, "n3")
+        self.assert_unique(kept, lost, new)
+        self.assertEqual(len({record.split("-")[1] for record in new}), 1, "one branch")
 
     def test_a_server_is_set_back_under_running_services(self):
         cluster = Cluster("fsync=off").start()
