@@ -259,14 +259,10 @@ class Contradictions {
       const auto* parameter = find_parameter(descriptor, written.parameter);
       const std::string_view comment = program_.text(written.comment);
       if (parameter == nullptr || comment.empty()) continue;
+      const Senses intended = meant_by(*parameter).title;
       const Senses said = senses_of(comment);
-      const Senses intended = senses_of(parameter->title());
-      const bool is_others = !ascii_iequals(comment, parameter->title()) &&
-                             std::ranges::any_of(descriptor.parameters, [&](const auto& other) {
-                               return ascii_iequals(comment, other.title());
-                             });
-      if (!is_others && !contradict(said, intended, Sense::kOfParameters) &&
-          !means_other(descriptor, *parameter, said) &&
+      if (!contradict(said, intended, Sense::kOfParameters) &&
+          !means_other(descriptor, *parameter, comment) &&
           !contradict(said & ~intended, meant, std::array{Sense::kSide})) {
         continue;
       }

@@ -173,7 +173,7 @@ constexpr CycleParameter kParameters[] = {
     choice(453, "Spindle state", 0, 2),
     choice(460, "Corner cycle", 0, 1),
     {.id = q(500), .meaning = "Text to engrave", .kind = ValueKind::Text, .required = false},
-    choice(512, "Finishing speed of the approach", 0, 99999),
+    choice(512, "Feed rate for the approach", 0, 99999),
     length(513, "Height of the characters", 10),
     plain(514, "Factor of the spacing", 0, 10, 0),
     choice(515, "Font", 0, 1),

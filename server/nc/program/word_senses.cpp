@@ -58,14 +58,11 @@ constexpr Senses kAround = Sense::kInside | Sense::kOutside | Sense::kCircle | S
 /// Senses that name no parameter without another.
 constexpr Senses kAdded = Sense::kTop | Sense::kBottom | Sense::kBlank | Sense::kFinish |
                           Sense::kMilling | Sense::kRetract | Sense::kMaximum | Sense::kMinimum |
-                          Sense::kPosition | Sense::kMode | Sense::kStart | Sense::kStep;
+                          Sense::kPosition | Sense::kMode | Sense::kStart | Sense::kStep |
+                          Sense::kLateral;
 
-/// Senses of a parameter's title; titles are static data.
 Senses senses_of_title(const probing::CycleParameter& parameter) {
-  thread_local std::map<const char*, Senses> known;
-  const auto [found, is_new] = known.try_emplace(parameter.meaning.data(), 0);
-  if (is_new) found->second = senses_of(parameter.title()) & ~kAround;
-  return found->second;
+  return meant_by(parameter).title & ~kAround;
 }
 
 }  // namespace
@@ -84,6 +81,16 @@ Senses senses_of(std::string_view text) {
   return senses;
 }
 
+const Meant& meant_by(const probing::CycleParameter& parameter) {
+  thread_local std::map<const char*, Meant> known;  // meanings are static data
+  const auto [found, is_new] = known.try_emplace(parameter.meaning.data());
+  if (is_new) {
+    const Senses title = senses_of(parameter.title());
+    found->second = {title, senses_of(parameter.meaning) & ~title};
+  }
+  return found->second;
+}
+
 bool contradict(Senses said, Senses meant, std::span<const Senses> groups) {
   return std::ranges::any_of(groups, [&](Senses group) {
     return (said & group) != 0 && (meant & group) != 0 && (said & meant & group) == 0;
@@ -91,10 +98,16 @@ bool contradict(Senses said, Senses meant, std::span<const Senses> groups) {
 }
 
 bool means_other(const probing::CycleDescriptor& cycle, const probing::CycleParameter& parameter,
-                 Senses comment) {
-  const Senses said = comment & ~kAround;
+                 std::string_view comment) {
+  const bool is_title = std::ranges::any_of(
+      cycle.parameters, [&](const auto& other) { return ascii_iequals(comment, other.title()); });
+  const Senses said = senses_of(comment) & ~kAround;
   const Senses own = senses_of_title(parameter);
-  if ((said & ~kAdded) == 0 || own == 0 || (said & ~own) == 0) return false;
+  // `CLEARANCE HEIGHT` is short for its mode.
+  const bool is_short = said != 0 && said != own && (said | Sense::kMode) == own;
+  if (is_title && !is_short && !ascii_iequals(comment, parameter.title())) return true;
+  if ((said & ~kAdded) == 0 || own == 0 || (said & ~own & ~meant_by(parameter).choices) == 0)
+    return false;
   return std::ranges::any_of(cycle.parameters, [&](const probing::CycleParameter& other) {
     return (said & ~senses_of_title(other)) == 0;
   });

@@ -75,7 +75,8 @@ struct Sense {
     kMode = 1ULL << 59U,  ///< a choice between ways to do it
     kNumber = 1ULL << 60U,
     kTool = 1ULL << 61U,
-    kZero = 1ULL << 62U  ///< set to zero
+    kZero = 1ULL << 62U,    ///< set to zero
+    kLateral = 1ULL << 63U  ///< at the side
   };
 
   /// Senses that exclude each other.
@@ -97,11 +98,20 @@ struct Sense {
 /// word hides the words within it.
 Senses senses_of(std::string_view text);
 
+/// Senses of a parameter.
+struct Meant {
+  Senses title = 0;
+  Senses choices = 0;  ///< those of its choices alone
+};
+
+const Meant& meant_by(const probing::CycleParameter& parameter);
+
 /// Whether a text means something in a group, but not the intended item.
 bool contradict(Senses said, Senses meant, std::span<const Senses> groups);
 
-/// Whether a comment is all that another parameter of the cycle means, but not what this one does.
+/// Whether a comment is all that another parameter of the cycle means, but not what this one does
+/// with its choices.
 bool means_other(const probing::CycleDescriptor& cycle, const probing::CycleParameter& parameter,
-                 Senses comment);
+                 std::string_view comment);
 
 }  // namespace fitgauge::interpreter

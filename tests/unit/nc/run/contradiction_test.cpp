@@ -251,7 +251,9 @@ TEST_CASE("exchanged comments of neighbours are found in every cycle") {
     CHECK_MESSAGE(count(cycle.parameters.size()) == 0, block(cycle, cycle.parameters.size()));
     for (std::size_t i = 0; i + 1 < cycle.parameters.size(); ++i) {
       if (cycle.parameters[i].title() == cycle.parameters[i + 1].title()) continue;
-      CHECK_MESSAGE(count(i) == 2, block(cycle, i));
+      // `CLEARANCE HEIGHT` may be short for its mode.
+      const int is_short = name(cycle.parameters[i + 1]) == "Q1125" ? 1 : 0;
+      CHECK_MESSAGE(count(i) == 2 - is_short, block(cycle, i));
       ++exchanges;
     }
   };
