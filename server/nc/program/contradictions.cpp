@@ -248,7 +248,7 @@ class Contradictions {
       warn(DiagnosticCode::DialogContradicts, block_->written,
            fmt::format("'{}' contradicts cycle {}, which is {}: correct the number or the text",
                        dialog, descriptor.number, descriptor.name));
-    } else if (descriptor.kind != probing::CycleKind::Machining &&
+    } else if (other_cycle(descriptor, comment_above()) != nullptr &&
                contradict(senses_of(comment_above()), meant, std::array{Sense::kSide})) {
       warn(DiagnosticCode::CommentContradicts, block_->written,
            fmt::format("the comment '{}' contradicts cycle {}, which is {}: it would probe from "
@@ -275,12 +275,12 @@ class Contradictions {
 
   /// Returns the comment in the line of the cycle, or in a comment line before it.
   std::string_view comment_above() const {
-    if (!block_->comment.empty()) return program_.text(block_->comment);
+    if (!block_->comment.empty()) return trim(program_.text(block_->comment));
     if (before_ == nullptr) return {};
     if (const auto* structure = std::get_if<klartext::Structure>(&before_->statement))
-      return program_.text(structure->text);
+      return trim(program_.text(structure->text));
     return std::holds_alternative<klartext::Empty>(before_->statement)
-               ? program_.text(before_->comment)
+               ? trim(program_.text(before_->comment))
                : std::string_view();
   }
 
