@@ -39,7 +39,7 @@ const CycleDescriptor* find_descriptor(CycleFamily family, int number) {
 
 std::optional<CycleAt> cycle_of(std::string_view line) {
   static const std::regex kHead(
-      R"(/?\s*(?:N?\d+)?\s*(?:(TCH\s+PROBE|CYCL\s+DEF|GLOBAL\s+DEF)\s*|G)(\d{1,4})(?!\d))",
+      R"(/?\s*(?:N?\d+)?\s*(?:(TCH\s+PROBE|CYCL\s+DEF|GLOBAL\s+DEF)\s*|G)(\d{1,4})(?:\.\d+)?(?!\d))",
       std::regex::icase);
   constexpr std::size_t kLongestHead = 80;
   std::cmatch found;

@@ -80,30 +80,53 @@ class Remedies {
     add("Add the '~' that is missing", {wrapped(line_)}, count < 2);
   }
 
+  /// The end of the dialog of a cycle: before its first parameter, a comment, or a mark.
+  std::size_t end_of_dialog() const {
+    const std::string_view line = text_.line(line_);
+    std::size_t end = std::min(line.find_first_of(";~*", cycle_->dialog), line.size());
+    for (const WrittenParameter& each : parameters_of(text_, line_))
+      if (each.begin >= cycle_->dialog && (each.is_set || cycle_->cycle->dotted))
+        end = std::min(end, each.begin);
+    return line.find_last_not_of(" \t", end - 1) + 1;
+  }
+
+  /// Whether a cycle in one block, as that of the finding, has all parameters of its block.
+  bool fits(const probing::CycleDescriptor& other) const {
+    const klartext::Program& tree = text_.tree();
+    return !other.dotted && !cycle_->cycle->dotted &&
+           std::ranges::all_of(tree.blocks(), [&](const klartext::Block& block) {
+             const auto* cycle = std::get_if<klartext::Cycle>(&block.statement);
+             return cycle == nullptr || tree.range(block.written).begin.line != line_ + 1 ||
+                    std::ranges::all_of(tree.view(cycle->parameters), [&](const auto& written) {
+                      return interpreter::find_parameter(other, written.parameter) != nullptr;
+                    });
+           });
+  }
+
   void correct_words() {
     const std::string_view written = text_.line(line_);
-    const std::string_view plain = without_wrap(written);
-    const std::size_t comment = std::min(comment_of(plain), plain.size());
     if (found_.code == DiagnosticCode::DialogContradicts && cycle_ && cycle_->first_line == line_) {
       add(fmt::format("Write the name of the cycle: {}", cycle_->cycle->name),
-          {whole_line(line_, fmt::format("{} {}{}{}{}", written.substr(0, cycle_->dialog),
-                                         cycle_->cycle->name, comment == plain.size() ? "" : " ",
-                                         plain.substr(comment), mark()))});
+          {edit(line_, cycle_->dialog, end_of_dialog(), fmt::format(" {}", cycle_->cycle->name))});
       const std::size_t begin = written.find_last_not_of("0123456789", cycle_->dialog - 1) + 1;
       const bool is_iso = begin != 0 && ascii_upper(written[begin - 1]) == 'G';
       const std::string_view dialog =
-          trim(written.substr(cycle_->dialog, comment - cycle_->dialog));
-      if (const auto* other = interpreter::other_cycle(
-              *cycle_->cycle, dialog.substr(0, dialog.find_last_not_of(" *~") + 1))) {
+          trim(written.substr(cycle_->dialog, end_of_dialog() - cycle_->dialog));
+      const auto* other = interpreter::other_cycle(*cycle_->cycle, dialog);
+      if (other != nullptr && fits(*other)) {
         const std::string head = head_of(*other, is_iso);
         add(fmt::format("Make it cycle {}: {}", other->number, other->name),
             {edit(line_, begin, cycle_->dialog, head.substr(head.find_first_of("0123456789")))},
             false);
       }
     }
-    const auto parameters = parameters_of(text_, line_);
-    if (found_.code != DiagnosticCode::CommentContradicts || !cycle_ || parameters.empty()) return;
-    const auto* known = interpreter::find_parameter(*cycle_->cycle, parameters.front().parameter);
+    if (found_.code != DiagnosticCode::CommentContradicts || !cycle_) return;
+    const std::string_view plain = without_wrap(written);
+    const std::size_t comment = std::min(comment_of(plain), plain.size());
+    const auto parameter =
+        parameter_at(text_, text_.place_of_column(line_, found_.range.begin.column));
+    const auto* known =
+        parameter ? interpreter::find_parameter(*cycle_->cycle, parameter->parameter) : nullptr;
     if (known != nullptr)
       add(fmt::format("Write what it means: {}", dialog_of(*known)),
           {whole_line(

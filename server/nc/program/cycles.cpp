@@ -131,11 +131,14 @@ const probing::CycleDescriptor* other_cycle(const probing::CycleDescriptor& cycl
   const auto is_meant = [&](const probing::CycleDescriptor& other) {
     return other.family == cycle.family && ascii_iequals(other.name, name);
   };
-  for (const probing::TouchProbeCycle* other : probing::cycles())
-    if (is_meant(other->descriptor)) return &other->descriptor;
-  for (const MachiningCycle& other : machining_cycles())
-    if (is_meant(other.descriptor)) return &other.descriptor;
-  return nullptr;
+  const probing::CycleDescriptor* found = nullptr;
+  const auto consider = [&](const probing::CycleDescriptor& other) {
+    const bool is_nearer = found == nullptr || found->dotted != cycle.dotted;
+    if (is_nearer && is_meant(other)) found = &other;
+  };
+  for (const probing::TouchProbeCycle* other : probing::cycles()) consider(other->descriptor);
+  for (const MachiningCycle& other : machining_cycles()) consider(other.descriptor);
+  return found;
 }
 
 const probing::TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number) {

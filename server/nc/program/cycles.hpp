@@ -47,7 +47,7 @@ std::optional<probing::ArgumentValue> literal(const klartext::Program& program,
 const probing::CycleParameter* find_parameter(const probing::CycleDescriptor& descriptor,
                                               klartext::QRef written);
 
-/// Another cycle of the same family with that name, or null.
+/// Another cycle of the same family with that name, or null; of two that which is written alike.
 const probing::CycleDescriptor* other_cycle(const probing::CycleDescriptor& cycle,
                                             std::string_view name);
 

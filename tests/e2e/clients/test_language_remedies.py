@@ -87,10 +87,38 @@ class Remedies(LanguageTest):
 
     def test_the_number_of_the_named_cycle_is_written(self):
         for text, head in ((PROGRAM, "TCH PROBE"), (ISO, "N50 G")):
+            text = text.replace("Q275=", "Q277=").replace("Q276=", "Q278=")
             wrong = text.replace("421 MEASURE HOLE", "421 MEAS. CIRCLE OUTSIDE")
             right = text.replace("421 MEASURE HOLE", "422 MEAS. CIRCLE OUTSIDE")
             with self.subTest(head):
                 self.assertEqual(self.remedied(NAME, wrong, "Make it cycle 422"), right)
+
+    def test_the_named_cycle_has_the_parameters_of_the_block(self):
+        wrong = "BEGIN PGM A MM\nCYCL DEF 200 {} Q200=2 Q201=-20{}\nEND PGM A MM\n"
+        for name, more, number in (("TAPPING", " Q206=100", "206"), ("RIGID TAPPING", " Q239=1.5", "207")):
+            with self.subTest(name):
+                right = wrong.replace("200 ", f"{number} ").format(name, more)
+                self.assertEqual(self.remedied(NAME, wrong.format(name, more), f"Make it cycle {number}"), right)
+        for other in (PROGRAM.replace("421 MEASURE HOLE", "421 MEAS. CIRCLE OUTSIDE"), wrong.format("PECKING", "")):
+            self.client.open("a.h", other)
+            self.assertEqual(self.titles(self.line_of("a.h", "421 " if "421" in other else "200 "), "Make it"), [])
+
+    def test_only_the_name_of_the_cycle_is_written(self):
+        iso = "%A G71 *\nN5 T30 G17 *\nN10 {} Q273=+50 Q274=+40 Q276=+26*\nN99999999 %A G71 *\n"
+        drill = "BEGIN PGM A MM\nCYCL DEF 200 {} Q200=2 Q201=-20 Q206=100\nEND PGM A MM\n"
+        for right, wrong in ((iso.format("G421 MEASURE HOLE"), iso.format("G421 MEASURE CIRCLE OUTSIDE")),
+                             (drill.format("DRILLING"), drill.format("TAPPING")),
+                             (PROGRAM.replace("HOLE ~", "HOLE Q423=+4 ~"), PROGRAM.replace("MEASURE HOLE ~", "MEAS. CIRCLE OUTSIDE Q423=+4 ~")),
+                             (PROGRAM.replace("HOLE ~", "HOLE;bore ~"), PROGRAM.replace("MEASURE HOLE ~", "MEAS. CIRCLE OUTSIDE;bore ~"))):
+            with self.subTest(wrong[:60]):
+                self.assertEqual(self.remedied(NAME, wrong, "Write the name"), right)
+
+    def test_the_comment_is_that_of_its_parameter(self):
+        wrong = DRILLING.format("Q201=-20").replace("Q200=2 ~\n    Q201=-20 ;DEPTH", "Q200=2 Q201=-20 ;SET-UP CLEARANCE")
+        self.assertEqual(self.remedied(COMMENT, wrong, "Write what it means"), wrong.replace("SET-UP CLEARANCE", "DEPTH"))
+
+    def titles(self, line, begin):
+        return [each["title"] for each in self.client.actions("a.h", line) if each["title"].startswith(begin)]
 
     def test_the_whole_block_gets_its_wraps(self):
         bare = PROGRAM.replace(" ~\n", "\n")
