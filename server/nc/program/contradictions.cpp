@@ -128,7 +128,9 @@ class Contradictions {
     if (const auto* parameter = std::get_if<klartext::QRef>(&value)) {
       const bool is_result = parameter->space == klartext::QSpace::Q &&
                              parameter->number >= kFirstResult && parameter->number < kEndOfResults;
-      if (is_result) reads_.try_emplace(parameter->number, block_);
+      if (!is_result) return;
+      auto& blocks = reads_[parameter->number];
+      if (blocks.empty() || blocks.back() != block_) blocks.push_back(block_);
     } else if (const auto* node = std::get_if<klartext::NodeIndex>(&value)) {
       for (const klartext::Expr& operand : program_.operands(*node)) read(operand);
     }
@@ -174,8 +176,9 @@ class Contradictions {
 
   void report_unset_results() {
     if (calls_programs_ || last_measured_ == nullptr) return;
-    for (const auto& [number, block] : reads_) {
+    for (const auto& [number, blocks] : reads_) {
       if (set_.test(number)) continue;
+      const Block* const block = blocks.front();
       std::string given;
       for (const auto& result : last_measured_->results)
         given += fmt::format("{}Q{}", given.empty() ? "" : ", ", result.q);
@@ -189,11 +192,27 @@ class Contradictions {
       klartext::Diagnostic& found = diagnostics_.back();
       found.notes.push_back(
           {fmt::format("cycle {}", last_measured_->number), program_.range(measuring_->written)});
-      for (const auto& result : last_measured_->results)
+      auto edits = edits_of(blocks, static_cast<std::uint16_t>(number));
+      for (const auto& result : last_measured_->results) {
+        if (edits.empty()) break;
+        for (auto& edit : edits) edit.by = fmt::format("Q{}", result.q);
         found.remedies.push_back(
-            {fmt::format("Read Q{}: {}", result.q, result.meaning),
-             replacements(found, fmt::format("Q{}", number), fmt::format("Q{}", result.q)), false});
+            {fmt::format("Read Q{}: {}", result.q, result.meaning), edits, false});
+      }
     }
+  }
+
+  /// The places of a result in the blocks that read it; none if one does not show it or if there
+  /// are too many.
+  std::vector<klartext::DiagnosticEdit> edits_of(const std::vector<const Block*>& blocks,
+                                                 std::uint16_t number) const {
+    std::vector<klartext::DiagnosticEdit> edits;
+    for (const Block* block : blocks) {
+      const auto places = places_of(program_, block->written, {klartext::QSpace::Q, number});
+      if (places.empty() || edits.size() > kMostFindings) return {};
+      for (const auto place : places) edits.push_back({program_.range(place)});
+    }
+    return edits;
   }
 
   // --- cycles
@@ -411,7 +430,7 @@ class Contradictions {
   const Block* measuring_ = nullptr;  ///< its block
   std::bitset<kEndOfResults> set_;
   FollowedValues constants_;
-  std::map<std::size_t, const Block*> reads_;  ///< results by the first block that reads them
+  std::map<std::size_t, std::vector<const Block*>> reads_;  ///< results by the blocks that read
 };
 
 }  // namespace

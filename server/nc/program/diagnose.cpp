@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "base/text.hpp"
+#include "nc/program/parameter.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -43,6 +44,8 @@ bool ignores(std::string_view line, std::string_view code) {
   }
 }
 
+bool is_in_word(char c) { return is_ascii_alphanumeric(c) || c == '_'; }
+
 /// The last physical line of the block that begins in a line.
 std::uint32_t last_line_of_block(const klartext::Program& program, std::uint32_t line) {
   const auto begin = [&](const klartext::Block& block) {
@@ -79,36 +82,49 @@ Diagnostic diagnose(const klartext::Program& program, const klartext::Block& blo
           std::string(program.line(range.begin.line))};
 }
 
-std::vector<klartext::DiagnosticEdit> replacements(const Diagnostic& found, std::string_view wrong,
-                                                   std::string_view right) {
-  std::vector<klartext::DiagnosticEdit> edits;
+std::vector<klartext::Slice<char>> places_of(const klartext::Program& program,
+                                             klartext::Slice<char> place,
+                                             klartext::QRef parameter) {
+  std::vector<klartext::Slice<char>> found;
+  const std::string_view code = program.written(place);
+  bool quoted = false;
+  for (std::size_t at = 0, end = 0; at < code.size(); at = end) {
+    end = at + 1;
+    if (code[at] == '\n') quoted = false;
+    if (code[at] == '"') quoted = !quoted;
+    if (code[at] == ';' && !quoted) end = std::min(code.find('\n', at), code.size());
+    if (!is_in_word(code[at])) continue;
+    while (end < code.size() && is_in_word(code[end])) ++end;
+    if (quoted || ascii_upper(code[at]) != 'Q') continue;
+    const auto name = parse_parameter_name(code.substr(at, end - at));
+    if (name && *name == parameter)
+      found.push_back(
+          {place.first + static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(end - at)});
+  }
+  return found;
+}
+
+void suggest(std::vector<Diagnostic>& diagnostics, std::string_view wrong,
+             const SpellingHint& hint) {
+  if (hint.word().empty() || diagnostics.empty()) return;
+  Diagnostic& found = diagnostics.back();
   const std::string line = ascii_upper(found.source);
   const std::string word = ascii_upper(wrong);
-  const auto is_in_word = [&](std::size_t at) {
-    return at < line.size() && (is_ascii_alphanumeric(line[at]) || line[at] == '_');
-  };
   for (std::size_t at = 0; (at = line.find(word, at)) != line.npos; at += word.size()) {
     const auto column = [&](std::size_t byte) {
       const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
       return static_cast<std::uint32_t>(
           1 + std::ranges::count_if(std::string_view(line).substr(0, byte), begins));
     };
-    const bool is_whole = (at == 0 || !is_in_word(at - 1)) && !is_in_word(at + word.size());
+    const std::size_t end = at + word.size();
+    const bool is_whole =
+        (at == 0 || !is_in_word(line[at - 1])) && (end >= line.size() || !is_in_word(line[end]));
     if (!is_whole || column(at) < found.range.begin.column) continue;
     const std::uint32_t number = found.range.begin.line;
-    edits.push_back(
-        {{{number, column(at)}, {number, column(at + word.size())}}, std::string(right)});
+    found.remedies.push_back(
+        {"Write " + hint.word(), {{{{number, column(at)}, {number, column(end)}}, hint.word()}}});
+    return;
   }
-  return edits;
-}
-
-void suggest(std::vector<Diagnostic>& diagnostics, std::string_view wrong,
-             const SpellingHint& hint) {
-  if (hint.word().empty() || diagnostics.empty()) return;
-  auto edits = replacements(diagnostics.back(), wrong, hint.word());
-  if (edits.empty()) return;
-  edits.resize(1);
-  diagnostics.back().remedies.push_back({"Write " + hint.word(), std::move(edits)});
 }
 
 std::optional<klartext::DiagnosticEdit> written_number(const klartext::Program& program,

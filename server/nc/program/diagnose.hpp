@@ -26,10 +26,9 @@ klartext::Diagnostic diagnose(const klartext::Program& program, const klartext::
                               klartext::Slice<char> place, klartext::Severity severity,
                               klartext::DiagnosticCode code, std::string message);
 
-/// The change of a wrong word of a finding, from its place on to the end of the line, and further
-/// ones of the same word.
-std::vector<klartext::DiagnosticEdit> replacements(const klartext::Diagnostic& found,
-                                                   std::string_view wrong, std::string_view right);
+/// Where a parameter is written in the code of a place: not in comments and texts.
+std::vector<klartext::Slice<char>> places_of(const klartext::Program& program,
+                                             klartext::Slice<char> place, klartext::QRef parameter);
 
 /// Adds the remedy to write the near word to the last finding.
 void suggest(std::vector<klartext::Diagnostic>& diagnostics, std::string_view wrong,

@@ -85,6 +85,12 @@ class Remedies(LanguageTest):
                 titles = [each["title"].split(":")[0] for each in self.client.actions(name, self.line_of(name, "Q155"))]
                 self.assertLessEqual({"Read Q151", "Read Q152", "Read Q153"}, set(titles))
 
+    def test_every_block_reads_the_result(self):
+        body = "Q2 = q155 - Q1 ;not Q155\nQS3 = \"Q155\"\nL X+Q155 Y+QL155 R0 FMAX\nCYCL DEF 200 DRILLING ~\n    Q200=+2 ~\n    Q202=+Q155"
+        right = self.remedied(UNSET, PROGRAM.replace("Q2 = Q153 - Q1", body), "Read Q153: Diameter")
+        expected = body.replace("= q155", "= Q153").replace("X+Q155", "X+Q153").replace("=+Q155", "=+Q153")
+        self.assertEqual(right, PROGRAM.replace("Q2 = Q153 - Q1", expected))
+
     def test_the_number_of_the_named_cycle_is_written(self):
         for text, head in ((PROGRAM, "TCH PROBE"), (ISO, "N50 G")):
             text = text.replace("Q275=", "Q277=").replace("Q276=", "Q278=")
