@@ -126,6 +126,21 @@ class Remedies(LanguageTest):
     def titles(self, line, begin):
         return [each["title"] for each in self.client.actions("a.h", line) if each["title"].startswith(begin)]
 
+    def test_a_number_with_another_sign_is_not_changed(self):
+        minus = DRILLING.format("Q201=-Q9").replace("Q9 = +20", "Q9 = -20")
+        far = LIMITS.replace("Q275=+24.9", "Q275=-Q8").replace("Q276=+24.9", "Q276=+25.1").replace("Q1 =", "Q8 = -24.9\nQ1 =")
+        for wrong, line in ((minus, "Q201="), (minus, "Q9 ="), (far, "Q276="), (far, "Q275="), (far, "Q8 =")):
+            with self.subTest(line):
+                self.assertIn(ORDER, [each["code"] for each in self.client.open("a.h", wrong)])
+                self.assertEqual(self.titles(self.line_of("a.h", line), "Write it") + self.titles(self.line_of("a.h", line), "Exchange"), [])
+
+    def test_a_number_that_others_read_is_not_the_preferred_remedy(self):
+        wrong = DRILLING.format("Q201=+Q9")
+        for text, is_preferred in ((wrong, True), (wrong.replace("END PGM", "Q10 = Q9 + 1\nEND PGM"), False)):
+            self.client.open("a.h", text)
+            minus, = (each for each in self.client.actions("a.h", 1) if each["title"] == "Write it with a minus")
+            self.assertEqual(minus["isPreferred"], is_preferred)
+
     def test_the_whole_block_gets_its_wraps(self):
         bare = PROGRAM.replace(" ~\n", "\n")
         for right, wrong in ((PROGRAM, bare), (PROGRAM.replace("\n    Q", "\nQ"), bare.replace("\n    Q", "\nQ"))):
