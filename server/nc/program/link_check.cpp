@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <string>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "nc/program/diagnose.hpp"
 #include "nc/program/parameter.hpp"
 #include "nc/program/system_addresses.hpp"
+#include "nc/program/word_senses.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -248,8 +250,23 @@ class BlockCheck {
 
   void report_unknown(const klartext::CycleParameter& written, const klartext::Cycle& block,
                       const probing::CycleDescriptor& cycle) {
+    if (diagnostics_.size() >= kMostFindings) return;
+    std::vector<const probing::CycleParameter*> missing;
+    for (const auto& parameter : cycle.parameters) {
+      const auto is_it = [&](const auto& other) {
+        return find_parameter(cycle, other.parameter) == &parameter;
+      };
+      if (std::ranges::none_of(program_.view(block.parameters), is_it))
+        missing.push_back(&parameter);
+    }
+    // The first of equally near names counts: it has the senses of the comment.
+    const Senses said = senses_of(program_.text(written.comment));
+    if (said != 0)
+      std::ranges::stable_sort(missing, {}, [said](const auto* parameter) {
+        return std::popcount(said ^ senses_of(parameter->title()));
+      });
     SpellingHint hint(name(written.parameter));
-    for (const auto& parameter : cycle.parameters) hint.consider(name(parameter));
+    for (const auto* parameter : missing) hint.consider(name(*parameter));
     report(
         Severity::Error, DiagnosticCode::CycleParameterUnknown, written.written,
         fmt::format(

@@ -66,6 +66,9 @@ class Remedies(LanguageTest):
     def test_a_near_name_is_written(self):
         for code, wrong, title, right in (
                 (UNKNOWN, DRILLING.format("Q305=-20"), "Write Q395", DRILLING.format("Q395=-20")),
+                (UNKNOWN, PROGRAM.replace("Q330=", "Q331="), "Write Q330", PROGRAM),
+                (UNKNOWN, PROGRAM.replace("Q274=+40", "Q27=+40").replace("    Q273=+50 ;CENTRE IN 1ST AXIS ~\n", ""), "Write Q274",
+                 PROGRAM.replace("    Q273=+50 ;CENTRE IN 1ST AXIS ~\n", "")),
                 ("block.unknown", PROGRAM.replace("CALL LBL", "CALLL LBL"), "Write CALL", PROGRAM),
                 ("syntax.error", PROGRAM.replace("TOOL CALL", "TOOL CALLL"), "Write CALL", PROGRAM),
                 ("label.unknown", PROGRAM.replace('CALL LBL "HOLE"', 'CALL LBL "HOL\u00c9"'), "Write HOLE", PROGRAM),
