@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <iterator>
+
 #include "base/text.hpp"
 #include "nc/klartext/forms.hpp"
 #include "nc/klartext/parser.hpp"
@@ -99,9 +103,23 @@ bool at_c_axis(BlockReader& in, std::string_view name) {
          (in.peek() == '+' || in.peek() == '-' || in.at_number() || in.at_parameter());
 }
 
-/// CYCL for CYCLE.
-SpellingHint similar_keyword(std::string_view name) {
+/// CYCL for CYCLE. A word that few blocks have in second place tells the first.
+SpellingHint similar_keyword(std::string_view name, std::string_view next) {
+  struct Second {
+    std::string_view word;
+    std::array<std::string_view, 4> first;
+  };
+  constexpr Second kSeconds[] = {{"DEF", {"CYCL", "TOOL", "GLOBAL", "PATTERN"}},
+                                 {"CALL", {"CYCL", "TOOL"}},
+                                 {"PROBE", {"TCH"}},
+                                 {"PGM", {"CALL", "SEL", "BEGIN", "END"}}};
   SpellingHint hint(name);
+  const auto* second = std::ranges::find_if(
+      kSeconds, [next](const Second& each) { return ascii_iequals(each.word, next); });
+  if (second != std::end(kSeconds)) {
+    for (const std::string_view first : second->first) hint.consider(first);
+    return hint;
+  }
   for (const Keyword& keyword : kBlockKeywords) hint.consider(keyword.name);
   return hint;
 }
@@ -151,7 +169,9 @@ Statement parse_statement(BlockReader& in) {
   if (name.empty()) {
     in.fail_expected("a block");
   } else {
-    const SpellingHint hint = similar_keyword(name);
+    in.move_to(begin + name.size());
+    in.skip_blanks();
+    const SpellingHint hint = similar_keyword(name, in.letters());
     in.fail(DiagnosticCode::BlockUnknown, in.place(begin, begin + name.size()),
             fmt::format("no block begins with '{}'{}", excerpt(name), hint.text()), hint.word());
   }
