@@ -163,8 +163,9 @@ std::string parameter_hover(const EditedText& text, std::size_t line, klartext::
     if (!cycle) continue;
     for (const auto& result : cycle->cycle->results)
       if (parameter == klartext::QRef{klartext::QSpace::Q, result.q})
-        shown = fmt::format("{} of {} {}, {}\n\n", result.meaning, head_of(*cycle->cycle),
-                            cycle->cycle->name, symbol(result.unit));
+        shown = fmt::format("{} of {} {}{}{}\n\n", result.meaning, head_of(*cycle->cycle),
+                            cycle->cycle->name, symbol(result.unit).empty() ? "" : ", ",
+                            symbol(result.unit));
   }
   const std::string name = interpreter::name(parameter);
   const klartext::Program& tree = text.tree();
@@ -189,7 +190,9 @@ std::string setting_hover(const EditedText& text, std::size_t line) {
     if (range.begin.line > line + 1 || range.end.line < line + 1) continue;
     if (part == nullptr) part = std::get_if<klartext::CyclePart>(&block.statement);
     const std::string klartext = klartext::print_statement(tree, block);
-    if (text.is_iso() && !klartext.empty()) blocks += fmt::format("`{}`\n\n", klartext);
+    if (!text.is_iso() || klartext.empty()) continue;
+    blocks += klartext.find('\n') == klartext.npos ? fmt::format("`{}`\n\n", klartext)
+                                                   : fmt::format("```\n{}\n```\n\n", klartext);
   }
   if (part == nullptr) return blocks;
   if (const auto* cycle = find_descriptor(part->family, part->number))

@@ -83,6 +83,8 @@ class Editing(LanguageTest):
             value = self.at("hover", name, "Q262=")["result"]["contents"]["value"]
             self.assertTrue(value.startswith("**Q262** Nominal diameter\n\nmm"), value)
         self.assertIn("Diameter of TCH PROBE 421", self.at("hover", "demo.h", "Q2 =", "Q153")["result"]["contents"]["value"])
+        self.client.open("good.h", PROGRAM.replace("Q153", "Q180"))
+        self.assertIn("Good of TCH PROBE 421 MEASURE HOLE\n", self.at("hover", "good.h", "Q2 =", "Q180")["result"]["contents"]["value"])
         self.assertIn("2: `Q1 = +25 ;NOMINAL`", self.at("hover", "demo.h", "Q262=", "Q1 ")["result"]["contents"]["value"])
         self.assertIsNone(self.at("hover", "demo.h", "STOP")["result"])
 
@@ -117,6 +119,8 @@ class Editing(LanguageTest):
         self.assertIn("`CYCL DEF 7.1 X+1`", shown("a.i", "G54"))
         self.assertIn("**CYCL DEF 10 ROTATION**", shown("a.i", "G73"))
         self.assertEqual("`FN 0: Q1 = +Q5`", shown("a.i", "N4 ").strip())
+        self.client.open("b.i", ISO)
+        self.assertRegex(shown("b.i", "Q325=", " ").strip(), r"(?s)^```\nTCH PROBE 421 .*\n +Q330=\+0\n```$")
 
     def test_completion_writes_a_cycle_that_only_lacks_values(self):
         for name, head, frame_of in (("a.h", "TCH PROBE 42", "BEGIN PGM A MM\nTOOL CALL 1 Z\n{}\nEND PGM A MM\n"),
