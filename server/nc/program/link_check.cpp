@@ -129,13 +129,18 @@ class BlockCheck {
     };
     const auto id = whole(0);
     const auto number = whole(1);
-    if (!id || has_system_data(*id, number, writes)) return;
+    const auto index = whole(2);
+    const bool is_indexed = operands.size() < 3 || klartext::is_absent(operands[2]) || index;
+    if (!id) return;
+    const bool has_number = has_system_data(*id, number, writes);
+    const bool lacks_index = has_number && number && is_indexed && !has_index(*id, *number, index);
+    if (has_number && !lacks_index) return;
     const bool has_id = has_system_data(*id, std::nullopt, writes);
-    report(
-        Severity::Warning, DiagnosticCode::FeatureUnsupported, block_.written,
-        fmt::format("FN {}: ID{}{} is not available here: the run fails when it reaches this "
-                    "block",
-                    writes ? 17 : 18, *id, has_id && number ? fmt::format(" NR{}", *number) : ""));
+    report(Severity::Warning, DiagnosticCode::FeatureUnsupported, block_.written,
+           fmt::format("FN {}: ID{}{}{} is not available here: the run fails when it reaches this "
+                       "block",
+                       writes ? 17 : 18, *id, has_id && number ? fmt::format(" NR{}", *number) : "",
+                       lacks_index && index ? fmt::format(" IDX{}", *index) : ""));
   }
 
   void check_part(std::uint32_t index) {

@@ -31,6 +31,17 @@ constexpr SystemGroup kDataGroups[] = {
     {500, {}, true},     {502, {}},          {503, {}, true},
     {505, kDataOne},     {990, kDataModes}};
 
+struct Indexed {
+  int id;
+  int number;  ///< 0: all of the ID
+  int last;
+};
+/// Data of an axis, 1 to 3 or 1 to 6, and of a Q or QS parameter, which has no default.
+constexpr Indexed kIndexed[] = {{10, 103, 1999}, {10, 110, 1999}, {10, 111, 1999}, {210, 5, 3},
+                                {220, 0, 6},     {230, 2, 6},     {230, 3, 6},     {240, 0, 6},
+                                {270, 0, 6},     {350, 20, 3},    {360, 1, 3},     {360, 2, 6},
+                                {360, 3, 3},     {500, 0, 6},     {502, 0, 6},     {503, 0, 6}};
+
 }  // namespace
 
 std::span<const SystemGroup> system_groups() { return kDataGroups; }
@@ -43,6 +54,15 @@ bool has_system_data(int id, std::optional<int> number, bool writes) {
   if (writes && std::ranges::find(kDataCalibration, *number) != std::end(kDataCalibration))
     return false;
   return std::ranges::find(group->numbers, *number) != group->numbers.end();
+}
+
+bool has_index(int id, int number, std::optional<int> index) {
+  const auto* data = std::ranges::find_if(kIndexed, [&](const Indexed& each) {
+    return each.id == id && (each.number == 0 || each.number == number);
+  });
+  if (data == std::end(kIndexed)) return true;
+  const int first = id == 10 ? 0 : 1;
+  return index.value_or(first == 0 ? -1 : 1) >= first && index.value_or(1) <= data->last;
 }
 
 }  // namespace fitgauge::interpreter

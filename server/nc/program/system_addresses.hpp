@@ -17,4 +17,7 @@ std::span<const SystemGroup> system_groups();
 /// Whether this control has system data; without a number, whether it has any of the ID.
 bool has_system_data(int id, std::optional<int> number, bool writes);
 
+/// Whether data that need an index, most of them an axis, have this one.
+bool has_index(int id, int number, std::optional<int> index);
+
 }  // namespace fitgauge::interpreter

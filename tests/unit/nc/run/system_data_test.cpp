@@ -82,6 +82,14 @@ TEST_CASE("the check names system data that this control lacks") {
   CHECK(found("FN 17: SYSWRITE ID50 NR24 IDX30 = 5") == "FN 17: ID50 NR24" + fails);
   CHECK(found("FN 17: SYSWRITE ID50 NR4 IDX30 = 5") == "");
   CHECK(found("FN 18: SYSREAD Q1 = ID503 NR7777 IDX1") == "");
+  CHECK(found("FN 18: SYSREAD Q1 = ID210 NR5 IDX30") == "FN 18: ID210 NR5 IDX30" + fails);
+  CHECK(found("FN 18: SYSREAD Q1 = ID210 NR5 IDX4") == "FN 18: ID210 NR5 IDX4" + fails);
+  CHECK(found("FN 18: SYSREAD Q1 = ID210 NR5 IDXQ4") == "");
+  CHECK(found("FN 18: SYSREAD Q1 = ID210 NR5") == "");
+  CHECK(found("FN 18: SYSREAD Q1 = ID220 NR2 IDX30") == "FN 18: ID220 NR2 IDX30" + fails);
+  CHECK(found("FN 18: SYSREAD Q1 = ID220 NR2 IDX6") == "");
+  CHECK(found("FN 18: SYSREAD Q1 = ID10 NR103") == "FN 18: ID10 NR103" + fails);
+  CHECK(found("FN 18: SYSREAD Q1 = ID10 NR110 IDX0") == "");
   CHECK(found("FN 18: SYSREAD Q1 = IDQ7 NR1") == "");
 }
 
