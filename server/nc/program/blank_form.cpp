@@ -12,13 +12,14 @@ namespace {
 using klartext::BlankForm;
 using klartext::BlankKind;
 
-/// The last BLK FORM 0.1 before a block, or null.
-const BlankForm* lower_corner(const klartext::Program& program, const klartext::Block& block) {
+/// The block of the last BLK FORM 0.1 before a block, or null.
+const klartext::Block* lower_corner(const klartext::Program& program,
+                                    const klartext::Block& block) {
   constexpr int kMostBetween = 1'000;
   const klartext::Block* at = &block;
   for (int passed = 0; passed < kMostBetween && at != program.blocks().data(); ++passed) {
     const auto* blank = std::get_if<BlankForm>(&(--at)->statement);
-    if (blank != nullptr && blank->kind == BlankKind::Minimum) return blank;
+    if (blank != nullptr && blank->kind == BlankKind::Minimum) return at;
   }
   return nullptr;
 }
@@ -26,21 +27,27 @@ const BlankForm* lower_corner(const klartext::Program& program, const klartext::
 }  // namespace
 
 std::vector<std::string> blank_faults(const klartext::Program& program,
-                                      const klartext::Block& block) {
+                                      const klartext::Block& block, const BlankValue& value) {
   const auto* blank = std::get_if<BlankForm>(&block.statement);
   if (blank == nullptr) return {};
   const auto words = program.view(blank->words);
   if (blank->kind == BlankKind::Minimum && std::ranges::any_of(words, &klartext::Word::incremental))
     return {"the lower corner of the blank must be absolute: there is no position before it"};
   if (blank->kind != BlankKind::Maximum) return {};
-  const BlankForm* least = lower_corner(program, block);
-  if (least == nullptr) return {"BLK FORM 0.2 stands without BLK FORM 0.1 before it"};
+  const klartext::Block* least = lower_corner(program, block);
+  if (least == nullptr) return {std::string(kNoLowerCorner)};
+  const bool is_next = least + 1 == &block;  // else parameters may have other values by now
+  const auto number = [&](const klartext::Expr& written) {
+    if (const auto* literal = std::get_if<double>(&written)) return std::optional(*literal);
+    return is_next ? value(written) : std::nullopt;
+  };
   std::vector<std::string> faults;
   for (const klartext::Word& word : words) {
-    for (const klartext::Word& below : program.view(least->words)) {
-      const auto* written = std::get_if<double>(&word.value);
-      const auto* lower = std::get_if<double>(&below.value);
-      if (word.letter != below.letter || written == nullptr || lower == nullptr) continue;
+    for (const klartext::Word& below : program.view(std::get<BlankForm>(least->statement).words)) {
+      if (word.letter != below.letter) continue;
+      const auto written = number(word.value);
+      const auto lower = number(below.value);
+      if (!written || !lower) continue;
       const double upper = word.incremental ? *lower + *written : *written;
       if (upper > *lower) continue;
       const auto letter = klartext::spelling(word.letter);
@@ -50,6 +57,15 @@ std::vector<std::string> blank_faults(const klartext::Program& program,
     }
   }
   return faults;
+}
+
+bool may_have_blank_fault(const klartext::Program& program, const klartext::Block& block) {
+  bool depends = false;
+  const auto ask = [&](const klartext::Expr&) {
+    depends = true;
+    return std::optional<double>();
+  };
+  return !blank_faults(program, block, ask).empty() || depends;
 }
 
 }  // namespace fitgauge::interpreter

@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "nc/klartext/parser.hpp"
+#include "nc/program/blank_form.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/linker.hpp"
 #include "tables/tabfile/tab_table.hpp"
@@ -42,7 +43,7 @@ class Walk {
              "called",
              klartext::DiagnosticCode::ProgramTooLarge);
       } else {
-        visit(named.path);
+        visit_called(named.path);
       }
     }
     return true;
@@ -51,6 +52,16 @@ class Walk {
   std::vector<Diagnostic> take() { return std::move(diagnostics_); }
 
  private:
+  /// A program of which the caller may have the lower corner of the blank.
+  void visit_called(const ControlPath& path) {
+    const auto before = static_cast<std::ptrdiff_t>(diagnostics_.size());
+    visit(path);
+    const auto dropped =
+        std::remove_if(diagnostics_.begin() + before, diagnostics_.end(),
+                       [](const Diagnostic& found) { return found.message == kNoLowerCorner; });
+    diagnostics_.erase(dropped, diagnostics_.end());
+  }
+
   bool visit(const ControlPath& path) {
     const auto linked = programs_.get(disk_, path);
     if (linked == nullptr) return false;

@@ -72,7 +72,11 @@ class Contradictions {
   // --- blocks before a block that probes
   void visit(const auto&) {}
   void visit(const klartext::BlankForm&) {
-    for (std::string& fault : blank_faults(program_, *block_))
+    const auto value = [this](const klartext::Expr& written) {
+      const auto known = constants_.value_of(program_, written);
+      return known ? std::optional(known->value) : std::nullopt;
+    };
+    for (std::string& fault : blank_faults(program_, *block_, value))
       warn(DiagnosticCode::OrderContradicts, block_->written, std::move(fault));
   }
   void visit(const klartext::LabelDefinition& label) {

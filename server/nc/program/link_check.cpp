@@ -357,7 +357,7 @@ bool has_effect(const klartext::Program& program, std::uint32_t index) {
     return !neighbour(program, index, 1).has_value();
   }
   if (std::holds_alternative<klartext::BlankForm>(statement))
-    return !blank_faults(program, program.blocks()[index]).empty();
+    return may_have_blank_fault(program, program.blocks()[index]);
   return !(is_comment(program.blocks()[index]) ||
            std::holds_alternative<klartext::BeginProgram>(statement));
 }

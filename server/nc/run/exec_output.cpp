@@ -136,8 +136,14 @@ NcResult<void> execute(Channel& channel, const klartext::ExternalFunction& funct
 }
 
 NcResult<void> execute(Channel& channel, const klartext::BlankForm&) {
-  for (std::string& fault : blank_faults(channel.program(), channel.place().source()))
+  const auto value = [&](const klartext::Expr& written) {
+    const auto known = number(channel, written);
+    return known ? std::optional(*known) : std::nullopt;
+  };
+  for (std::string& fault : blank_faults(channel.program(), channel.place().source(), value)) {
+    if (fault == kNoLowerCorner && channel.calls.caller() != nullptr) continue;
     TRY(channel.note(std::move(fault)));
+  }
   return {};
 }
 

@@ -112,6 +112,16 @@ TEST_CASE("a blank whose corners contradict each other is found") {
         "the upper corner of the blank must lie above the lower one: Y-10 and Y+0");
   CHECK(found("BLK FORM 0.1 Z X+5 Y+0 Z-20\nBLK FORM 0.2 IX+0 Y+10 Z+0") ==
         "the upper corner of the blank must lie above the lower one: X+5 and X+5");
+  const std::string by_q = "BLK FORM 0.1 Z X+Q1 Y+0 Z-20\nBLK FORM 0.2 ";
+  CHECK(found("Q1 = 50\n" + by_q + "X+20 Y+10 Z+0") ==
+        "the upper corner of the blank must lie above the lower one: X+20 and X+50");
+  CHECK(found("Q1 = 5\n" + by_q + "X+Q1 Y+10 Z+0") ==
+        "the upper corner of the blank must lie above the lower one: X+5 and X+5");
+  CHECK(found("Q1 = 5\n" + by_q + "X+20 Y+10 Z+0") == "");
+  CHECK(found(by_q + "X+20 Y+10 Z+0") == "");
+  CHECK(found("Q1 = 5\nBLK FORM 0.1 Z X+Q1 Y+0 Z-20\nQ1 = 30\nBLK FORM 0.2 X+Q1 Y+10 Z+0") == "");
+  control.file("sub.h", "BEGIN PGM SUB MM\nBLK FORM 0.2 X+10 Y+10 Z+0\nEND PGM SUB MM\n");
+  CHECK(found("BLK FORM 0.1 Z X+0 Y+0 Z-20\nCALL PGM sub.h") == "");
   CHECK(found("BLK FORM 0.1 Z IX+5 Y+0 Z-20\nBLK FORM 0.2 X+10 Y+10 Z+0") ==
         "the lower corner of the blank must be absolute: there is no position before it");
 }
@@ -127,6 +137,11 @@ TEST_CASE("a run notes a blank whose corners contradict each other") {
         "the lower corner of the blank must be absolute: there is no position before it\n"
         "the upper corner of the blank must lie above the lower one: Y-10 and Y+0\n");
   CHECK(noted("BLK FORM 0.1 Z X+0 Y+0 Z-20\nBLK FORM 0.2 X+10 IY+10 Z+0") == "");
+  CHECK(noted("Q1 = 50\nBLK FORM 0.1 Z X+Q1 Y+0 Z-20\nBLK FORM 0.2 X+20 Y+10 Z+0") ==
+        "the upper corner of the blank must lie above the lower one: X+20 and X+50\n");
+  CHECK(noted("Q1 = 5\nBLK FORM 0.1 Z X+Q1 Y+0 Z-20\nBLK FORM 0.2 X+20 Y+10 Z+0") == "");
+  control.file("sub.h", "BEGIN PGM SUB MM\nBLK FORM 0.2 X+10 Y+10 Z+0\nEND PGM SUB MM\n");
+  CHECK(noted("BLK FORM 0.1 Z X+0 Y+0 Z-20\nCALL PGM sub.h") == "");
 }
 
 TEST_CASE("M functions of one block that exclude each other are found before the run") {
