@@ -101,6 +101,26 @@ class Contradictions {
   void visit(const klartext::CyclePart& part) {
     if (part.family == klartext::CycleFamily::TchProbe) constants_.clear();
     if (part.family == klartext::CycleFamily::CyclDef && part.number == 12) leave();
+    check_part(part);
+  }
+  /// The name of a cycle in sub-lines.
+  void check_part(const klartext::CyclePart& part) {
+    if (part.part == 0) {
+      std::string_view dialog = program_.text(part.text);
+      // `TCH PROBE 0.0 REF. PLANE Q5 X-`
+      if (part.family == klartext::CycleFamily::TchProbe)
+        dialog = trim(dialog.substr(0, dialog.find(" Q")));
+      if (const CycleDescriptor* cycle = dotted_cycle(part.family, part.number))
+        check_dialog(*cycle, dialog);
+    }
+  }
+  bool check_dialog(const CycleDescriptor& cycle, std::string_view dialog) {
+    const CycleDescriptor* named = other_cycle(cycle, dialog);
+    if (named == nullptr) return true;
+    warn(DiagnosticCode::DialogContradicts, block_->written,
+         fmt::format("'{}' is cycle {}, but this is cycle {} {}: correct the number or the text",
+                     dialog, named->number, cycle.number, cycle.name));
+    return false;
   }
   void forget() { spindle_ = cutter_ = nullptr; }
   void leave() { forget(), constants_.clear(), calls_programs_ = true; }
@@ -231,8 +251,7 @@ class Contradictions {
     for (const auto& result : descriptor->results) set({klartext::QSpace::Q, result.q});
     check_order(cycle, *descriptor);
     if (cycle.family == klartext::CycleFamily::CyclDef) {
-      if (descriptor->kind != probing::CycleKind::Machining) return;
-      cutter_ = block_;
+      if (descriptor->kind == probing::CycleKind::Machining) cutter_ = block_;
       check_words(cycle, *descriptor);
       return;
     }
@@ -264,15 +283,12 @@ class Contradictions {
   void check_words(const klartext::Cycle& cycle, const CycleDescriptor& descriptor) {
     const Senses meant = senses_of(descriptor.name);
     const std::string_view dialog = program_.text(cycle.dialog);
-    if (const CycleDescriptor* named = other_cycle(descriptor, dialog)) {
-      warn(DiagnosticCode::DialogContradicts, block_->written,
-           fmt::format("'{}' is cycle {}, but this is cycle {} {}: correct the number or the text",
-                       dialog, named->number, descriptor.number, descriptor.name));
-    } else if (contradict(senses_of(dialog), meant, Sense::kOfCycles)) {
+    const bool is_own = check_dialog(descriptor, dialog);
+    if (is_own && contradict(senses_of(dialog), meant, Sense::kOfCycles)) {
       warn(DiagnosticCode::DialogContradicts, block_->written,
            fmt::format("'{}' contradicts cycle {}, which is {}: correct the number or the text",
                        dialog, descriptor.number, descriptor.name));
-    } else if (other_cycle(descriptor, comment_above()) != nullptr &&
+    } else if (is_own && other_cycle(descriptor, comment_above()) != nullptr &&
                contradict(senses_of(comment_above()), meant, std::array{Sense::kSide})) {
       warn(DiagnosticCode::CommentContradicts, block_->written,
            fmt::format("the comment '{}' contradicts cycle {}, which is {}: it would probe from "

@@ -25,6 +25,20 @@ constexpr DottedSetting kDotted[] = {
     {26, "AXIS-SPEC. SCALING", "multiplies lengths by a factor for each axis"},
     {32, "TOLERANCE", "allows the path to deviate by T"}};
 
+/// Their numbers and names.
+const auto& settings() {
+  static const auto kSettings = [] {
+    std::array<probing::CycleDescriptor, std::size(kDotted)> all{};
+    for (std::size_t i = 0; i < all.size(); ++i)
+      all[i] = {.family = probing::CycleFamily::CyclDef,
+                .number = static_cast<std::uint16_t>(kDotted[i].number),
+                .name = kDotted[i].name,
+                .dotted = true};
+    return all;
+  }();
+  return kSettings;
+}
+
 namespace usual = probing::parameter;
 using probing::CycleDescriptor;
 using probing::CycleParameter;
@@ -127,7 +141,10 @@ const probing::CycleParameter* find_parameter(const probing::CycleDescriptor& de
 
 const probing::CycleDescriptor* other_cycle(const probing::CycleDescriptor& cycle,
                                             std::string_view name) {
-  if (ascii_iequals(cycle.name, name)) return nullptr;
+  // `TAPPING` is short for `RIGID TAPPING`.
+  const bool is_short =
+      cycle.dotted && ascii_upper(cycle.name).find(ascii_upper(name)) != std::string::npos;
+  if (is_short || ascii_iequals(cycle.name, name)) return nullptr;
   const auto is_meant = [&](const probing::CycleDescriptor& other) {
     return other.family == cycle.family && ascii_iequals(other.name, name);
   };
@@ -137,8 +154,18 @@ const probing::CycleDescriptor* other_cycle(const probing::CycleDescriptor& cycl
     if (is_nearer && is_meant(other)) found = &other;
   };
   for (const probing::TouchProbeCycle* other : probing::cycles()) consider(other->descriptor);
-  for (const MachiningCycle& other : machining_cycles()) consider(other.descriptor);
+  if (!cycle.dotted)
+    for (const MachiningCycle& other : machining_cycles()) consider(other.descriptor);
+  for (const CycleDescriptor& other : settings()) consider(other);
   return found;
+}
+
+const CycleDescriptor* dotted_cycle(klartext::CycleFamily family, int number) {
+  if (const auto* cycle = probing_cycle(family, number)) return &cycle->descriptor;
+  if (family == klartext::CycleFamily::TchProbe) return nullptr;
+  if (const auto* cycle = machining_cycle(number)) return &cycle->descriptor;
+  const auto* found = std::ranges::find(settings(), number, &CycleDescriptor::number);
+  return found == settings().end() ? nullptr : found;
 }
 
 const probing::TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number) {

@@ -51,6 +51,9 @@ const probing::CycleParameter* find_parameter(const probing::CycleDescriptor& de
 const probing::CycleDescriptor* other_cycle(const probing::CycleDescriptor& cycle,
                                             std::string_view name);
 
+/// The cycle of a sub-line, settings included, or null.
+const probing::CycleDescriptor* dotted_cycle(klartext::CycleFamily family, int number);
+
 /// The cycle of the probing library, or null.
 const probing::TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number);
 

@@ -58,6 +58,16 @@ TEST_CASE("a contradiction is found at its line") {
       "CYCL DEF 200 DRILLING ~\n Q200=+2 ;SET-UP CLEARANCE ~\n Q201=-10 ;DEPTH ~\n "
       "Q206=+200 ;FEED RATE FOR PLNGNG ~\n Q202=+5 ;PLUNGING DEPTH\n";
   const Case cases[] = {
+      // names of cycles in sub-lines and of cycle 247
+      {"TCH PROBE 0.0 MEASURE HOLE Q5 X-\nTCH PROBE 0.1 X+5 Y+0 Z-5", {dialog}},
+      {"TCH PROBE 0.0 REF. PLANE Q5 X-\nTCH PROBE 0.1 X+5 Y+0 Z-5", {}},
+      {"TCH PROBE 0.0 BEZUGSEBENE Q5 X-\nTCH PROBE 0.1 X+5 Y+0 Z-5", {}},
+      {"CYCL DEF 7.0 ROTATION\nCYCL DEF 7.1 X+5", {dialog}},
+      {"CYCL DEF 7.0 NULLPUNKT\nCYCL DEF 7.1 X+5", {}},
+      {"CYCL DEF 10.0 DATUM SHIFT\nCYCL DEF 10.1 ROT+5", {dialog}},
+      {"CYCL DEF 26.0 SCALING\nCYCL DEF 26.1 X2", {}},
+      {"CYCL DEF 247 MIRROR IMAGE Q339=+1", {dialog}},
+      {"CYCL DEF 247 DATUM SETTING Q339=+1 ;DATUM NUMBER", {}},
       // machining cycles
       {drill, {}},
       {replaced(drill, "DRILLING", "BOHREN"), {}},
