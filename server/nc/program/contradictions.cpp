@@ -32,6 +32,12 @@ constexpr int kLimitsOfSize[][2] = {
     {262, 275}, {262, 276}, {262, 277}, {262, 278}, {282, 284}, {282, 285}, {283, 286}, {283, 287},
     {311, 288}, {311, 289}, {262, 288}, {262, 289}, {262, 279}, {262, 280}, {282, 279}, {283, 280}};
 
+/// A clearance height, and what lies below it.
+constexpr int kHeights[][2] = {{260, 261}, {260, 294}, {7, 5}};
+
+/// Depths with their sign, in a cycle or in all of this control (0).
+constexpr int kDepths[][2] = {{0, 201}, {20, 1}, {25, 1}, {276, 1}, {263, 356}, {264, 356}};
+
 /// The results of cycles.
 constexpr std::size_t kFirstResult = 150;
 constexpr std::size_t kEndOfResults = 200;
@@ -103,7 +109,7 @@ class Contradictions {
     if (part.family == klartext::CycleFamily::CyclDef && part.number == 12) leave();
     check_part(part);
   }
-  /// The name of a cycle in sub-lines.
+  /// The name and the depth of a cycle in sub-lines.
   void check_part(const klartext::CyclePart& part) {
     if (part.part == 0) {
       std::string_view dialog = program_.text(part.text);
@@ -112,6 +118,17 @@ class Contradictions {
         dialog = trim(dialog.substr(0, dialog.find(" Q")));
       if (const CycleDescriptor* cycle = dotted_cycle(part.family, part.number))
         check_dialog(*cycle, dialog);
+    }
+    const bool is_old = part.number <= 5 || part.number == 17 || part.number == 18;
+    if (part.family != klartext::CycleFamily::CyclDef || !is_old ||
+        part.part != (part.number == 18 ? 1 : 2))
+      return;
+    for (const klartext::Word& word : program_.view(part.words)) {
+      const auto depth = constants_.value_of(program_, word.value);
+      if (word.letter != klartext::Letter::Value || !depth || depth->value <= 0) continue;
+      warn(DiagnosticCode::OrderContradicts, block_->written,
+           fmt::format("the depth {:+g} lies above the surface: write it with a minus",
+                       depth->value));
     }
   }
   bool check_dialog(const CycleDescriptor& cycle, std::string_view dialog) {
@@ -244,6 +261,8 @@ class Contradictions {
   void visit(const klartext::Cycle& cycle) {
     const CycleDescriptor* descriptor = bind_cycle(program_, cycle).descriptor();
     if (descriptor == nullptr) {
+      auto values = constants_.known(program_, cycle, block_);
+      check_depths(cycle, values, false);
       leave();  // a program may replace it
       return;
     }
@@ -383,14 +402,16 @@ class Contradictions {
     auto values = constants_.known(program_, cycle, block_);
     const auto value = [&](int number) { return values[number].value; };
     const bool is_probing = descriptor.family == probing::CycleFamily::TchProbe;
-    for (const int height : {261, 294}) {
-      if (!is_probing || !values.contains(260) || !values.contains(height) ||
-          value(260) >= value(height))
+    for (const auto& [clearance, height] : kHeights) {
+      if (is_probing != (clearance == 260) || !values.contains(clearance) ||
+          !values.contains(height) || value(clearance) >= value(height))
         continue;
-      contradicts(values[260], values[height],
-                  fmt::format("the clearance height Q260 = {} lies below Q{} = {}, at which the "
-                              "cycle probes: the ball moves through the part; raise Q260",
-                              value(260), height, value(height)));
+      contradicts(values[clearance], values[height],
+                  fmt::format("the clearance height Q{0} = {1} lies below Q{2} = {3}, {4} moves "
+                              "through the part; raise Q{0}",
+                              clearance, value(clearance), height, value(height),
+                              is_probing ? "at which the cycle probes: the ball"
+                                         : "the surface: the tool"));
     }
     for (std::size_t i = 1; i < descriptor.parameters.size(); ++i) {
       const auto& most = descriptor.parameters[i - 1];
@@ -431,10 +452,18 @@ class Contradictions {
           values[found->parameter], values[found->other],
           fmt::format("{}: the run fails when it calls cycle {}", found->text, descriptor.number));
     }
-    if (!is_probing && values.contains(201) && value(201) > 0) {
-      contradicts(values[201], values[201],
-                  fmt::format("the depth Q201 = {} lies above the surface: write it with a minus",
-                              value(201)),
+    check_depths(cycle, values, true);
+  }
+
+  void check_depths(const klartext::Cycle& cycle, std::map<int, FollowedValue>& values,
+                    bool is_known) {
+    for (const auto& [number, depth] : kDepths) {
+      if (cycle.family != klartext::CycleFamily::CyclDef || !values.contains(depth) ||
+          (number == 0 ? !is_known : number != cycle.number) || values[depth].value <= 0)
+        continue;
+      contradicts(values[depth], values[depth],
+                  fmt::format("the depth Q{} = {} lies above the surface: write it with a minus",
+                              depth, values[depth].value),
                   true);
     }
   }

@@ -58,6 +58,22 @@ TEST_CASE("a contradiction is found at its line") {
       "CYCL DEF 200 DRILLING ~\n Q200=+2 ;SET-UP CLEARANCE ~\n Q201=-10 ;DEPTH ~\n "
       "Q206=+200 ;FEED RATE FOR PLNGNG ~\n Q202=+5 ;PLUNGING DEPTH\n";
   const Case cases[] = {
+      // depths and heights with a wrong sign
+      {"CYCL DEF 20 CONTOUR DATA Q1=+20 Q5=+0 Q6=+2 Q7=+50", {order}},
+      {"CYCL DEF 20 CONTOUR DATA Q1=-20 Q5=+0 Q6=+2 Q7=-5", {order}},
+      {"CYCL DEF 20 CONTOUR DATA Q1=-20 Q5=+0 Q6=+2 Q7=+50", {}},
+      {"CYCL DEF 263 THREAD MLLNG/CNTSNKG Q335=10 Q239=1 Q201=-16 Q356=+20 Q207=100", {order}},
+      {"CYCL DEF 264 THREAD DRILLNG/MLLNG Q335=10 Q239=1 Q201=-16 Q356=+20 Q206=100 Q207=100",
+       {order}},
+      {"CYCL DEF 264 THREAD DRILLNG/MLLNG Q335=10 Q239=1 Q201=-16 Q356=-20 Q206=100 Q207=100", {}},
+      {"CYCL DEF 276 THREE-D CONT. TRAIN Q1=+20", {"warning 2 cycle.unknown", order}},
+      {"CYCL DEF 371 BUILDER Q201=+20", {"warning 2 cycle.unknown"}},
+      {"CYCL DEF 276 THREE-D CONT. TRAIN Q1=-20", {"warning 2 cycle.unknown"}},
+      {"CYCL DEF 1.0 TIEFBOHREN\nCYCL DEF 1.1 ABST 2\nCYCL DEF 1.2 TIEFE +20",
+       {"warning 4 cycle.order_contradicts"}},
+      {"CYCL DEF 1.0 TIEFBOHREN\nCYCL DEF 1.1 ABST 2\nCYCL DEF 1.2 TIEFE -20", {}},
+      {"CYCL DEF 4.0 POCKET MILLING\nCYCL DEF 4.1 SET UP 2\nCYCL DEF 4.2 DEPTH +10",
+       {"warning 4 cycle.order_contradicts"}},
       // names of cycles in sub-lines and of cycle 247
       {"TCH PROBE 0.0 MEASURE HOLE Q5 X-\nTCH PROBE 0.1 X+5 Y+0 Z-5", {dialog}},
       {"TCH PROBE 0.0 REF. PLANE Q5 X-\nTCH PROBE 0.1 X+5 Y+0 Z-5", {}},
