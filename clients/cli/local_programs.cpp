@@ -193,7 +193,13 @@ Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& optio
       continue;
     }
     apply_levels(levels, *found);
-    all.insert(all.end(), found->begin(), found->end());
+    for (Diagnostic& each : *found) {  // another file may call this one
+      const bool is_known = std::ranges::any_of(all, [&](const Diagnostic& other) {
+        return other.program == each.program && other.code == each.code &&
+               other.range == each.range && other.message == each.message;
+      });
+      if (!is_known) all.push_back(std::move(each));
+    }
   }
   print(context, !options.format.empty() ? options.format : context.json ? "json" : "text", all);
   if (failed) return *std::move(failed);

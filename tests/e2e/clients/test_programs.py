@@ -69,6 +69,7 @@ class Programs(ClientTest):
         text = self.assert_runs(2, "nc", "check", "b.h")
         self.assertIn("a.h:2:", text)
         self.assertIn("b.h:3:", text)
+        self.assertEqual(self.assert_runs(2, "nc", "check", "b.h", "a.h"), text)
         self.assertIn("0 BEGIN PGM A MM\n1 TCH PROBE 421", self.assert_runs(0, "nc", "format", "a.h"))
         self.assert_runs(0, "nc", "format", "--in-place", "a.h")
         self.assert_runs(1, "nc", "check", "a.h")
