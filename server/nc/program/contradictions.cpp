@@ -8,7 +8,6 @@
 #include <map>
 #include <utility>
 
-#include "base/number.hpp"
 #include "base/text.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/program/blank_form.hpp"
@@ -366,10 +365,10 @@ class Contradictions {
 
   /// The remedy for two numbers; for one, its minus.
   void add_exchange(klartext::Diagnostic& found, const FollowedValue& a, const FollowedValue& b) {
-    auto one = number_of(a);
-    auto two = number_of(b);
+    auto one = written_value(program_, a);
+    auto two = written_value(program_, b);
     if (!one || !two) return;
-    const bool is_preferred = is_read_once(a) && is_read_once(b);
+    const bool is_preferred = is_read_once(program_, a) && is_read_once(program_, b);
     if (&a == &b) {
       one->by = "-" + one->by.substr(one->by.find_first_not_of('+'));
       found.remedies.push_back({"Write it with a minus", {*one}, is_preferred});
@@ -377,25 +376,6 @@ class Contradictions {
       std::swap(one->by, two->by);
       found.remedies.push_back({"Exchange the two numbers", {*one, *two}, is_preferred});
     }
-  }
-  /// The written number that a value is: not of `Q201=-Q5` and `Q5 = 20`.
-  std::optional<klartext::DiagnosticEdit> number_of(const FollowedValue& followed) const {
-    auto written = written_number(program_, followed.place);
-    if (!written) return written;
-    std::string text = written->by.substr(written->by.starts_with('+') ? 1 : 0);
-    std::ranges::replace(text, ',', '.');
-    return read_number<double>(text) == followed.value ? written : std::nullopt;
-  }
-  /// Whether the cycle alone reads the parameter with a value: it is written twice in the program.
-  bool is_read_once(const FollowedValue& followed) const {
-    const auto* source = std::get_if<klartext::Assignment>(&followed.block->statement);
-    if (source == nullptr) return true;
-    std::size_t count = 0;
-    for (const Block& block : program_.blocks()) {
-      count += places_of(program_, block.written, source->target).size();
-      if (count > 2) return false;
-    }
-    return true;
   }
 
   void check_order(const klartext::Cycle& cycle, const CycleDescriptor& descriptor) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/syntax.hpp"
 #include "nc/program/arithmetic.hpp"
 
@@ -67,5 +68,11 @@ class FollowedValues {
  private:
   std::map<std::pair<klartext::QSpace, std::size_t>, FollowedValue> values_;
 };
+
+/// The written number that a value is: none of `Q201=-Q5` and `Q5 = 20`.
+std::optional<klartext::DiagnosticEdit> written_value(const klartext::Program& program,
+                                                      const FollowedValue& followed);
+/// Whether the cycle alone reads the parameter with a value: it is written twice in the program.
+bool is_read_once(const klartext::Program& program, const FollowedValue& followed);
 
 }  // namespace fitgauge::interpreter
