@@ -100,9 +100,9 @@ std::optional<PartFeature> SimulatedAxes::rectangle_at(const Vec3& place) const 
   const auto spans = [&](const Block& block, std::size_t axis) {
     return block.min[axis] < place[axis] && place[axis] < block.max[axis];
   };
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  std::array<double, 2> above{kNone, kNone};
-  std::array<double, 2> below{kNone, kNone};
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  std::array<double, 2> above{kFar, kFar};
+  std::array<double, 2> below{kFar, kFar};
   for (const Block& block : blocks_) {
     if (!spans(block, 2)) continue;
     const Vec3 size = block.max - block.min;
@@ -117,7 +117,7 @@ std::optional<PartFeature> SimulatedAxes::rectangle_at(const Vec3& place) const 
   }
   PartFeature room;
   for (const std::size_t axis : {0U, 1U})
-    if (above[axis] + below[axis] < kNone) room.length[axis] = above[axis] + below[axis];
+    if (above[axis] + below[axis] < kFar) room.length[axis] = above[axis] + below[axis];
   return room.length == std::array{0.0, 0.0} ? std::nullopt : std::optional(room);
 }
 

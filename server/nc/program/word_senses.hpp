@@ -75,8 +75,8 @@ struct Sense {
     kMode = 1ULL << 59U,  ///< a choice between ways to do it
     kNumber = 1ULL << 60U,
     kTool = 1ULL << 61U,
-    kZero = 1ULL << 62U,    ///< set to zero
-    kLateral = 1ULL << 63U  ///< at the side
+    kSetToZero = 1ULL << 62U,  ///< set to zero
+    kLateral = 1ULL << 63U     ///< at the side
   };
 
   /// Senses that exclude each other.
