@@ -15,7 +15,7 @@ inline constexpr std::string_view kNoLowerCorner =
 
 using BlankValue = std::function<std::optional<double>(const klartext::Expr&)>;
 
-/// What is wrong with a BLK FORM 0.1 or 0.2 and its other corner. Empty for other blocks. @param
+/// The faults of a BLK FORM 0.1 or 0.2 and its other corner. Empty for other blocks. @param
 /// value of what is no number, or nothing if it is unknown
 std::vector<std::string> blank_faults(const klartext::Program& program,
                                       const klartext::Block& block, const BlankValue& value);
