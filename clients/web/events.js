@@ -2,6 +2,7 @@
 
 import { get, keyInUse } from './api.js';
 import { pageFile } from './page_files.js';
+import { untilLifted } from './press.js';
 import { eventsOf, followStream } from './stream.js';
 
 const WORKER = pageFile('stream_worker.js');
@@ -14,14 +15,15 @@ export async function* readEvents(path, signal) {
 }
 
 /**
- * Follows /v1/events until `signal` while the page is seen. A page that was hidden goes on where it was,
- * or gets `resync`: then it reads anew.
+ * Follows /v1/events until `signal` while the page is seen, and tells nothing under a press. A page that was hidden
+ * goes on where it was, or gets `resync`: then it reads anew.
  */
 export async function follow(signal, onEvent) {
   const port = await sharedPort();
   let last;
-  const take = (event) => {
+  const take = async (event) => {
     last = event.id ?? last;
+    await untilLifted();
     if (!signal.aborted) onEvent(event);
   };
   const join = port ? joinShared(port, take, () => last) : joinAlone(take, () => last);

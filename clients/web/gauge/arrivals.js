@@ -5,6 +5,7 @@
 
 import { h, refill } from '../dom.js';
 import { number, t } from '../i18n.js';
+import { untilLifted } from '../press.js';
 import { forget, readJson, store, storedKeys } from '../stored.js';
 import { distanceText, measuredText, verdictMark, VERDICTS } from '../verdict.js';
 
@@ -58,7 +59,8 @@ export class Arrivals {
 
   /** Another tab has written or seen something. */
   #hear() {
-    this.#timer ||= setTimeout(() => {
+    this.#timer ||= setTimeout(async () => {
+      await untilLifted();
       this.#timer = 0;
       this.#all = new Map([...readAll(), ...this.#unkept]);
       this.#draw();

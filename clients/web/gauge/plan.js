@@ -6,6 +6,7 @@ import { h, refill } from '../dom.js';
 import { designationText } from '../designation.js';
 import { mmText, nmFromMm, nmFromUm, umText } from '../exact.js';
 import { date, dateTime, explain, number, signed, t, timeOfDay } from '../i18n.js';
+import { untilLifted } from '../press.js';
 import { randomText } from '../queue.js';
 import { readJson, store } from '../stored.js';
 import { limitsText, verdictShape } from '../verdict.js';
@@ -407,6 +408,6 @@ export class Plan {
   #wake(all) {
     clearTimeout(this.timer);
     const until = Math.min(...all.map((each) => each.until ?? Infinity));
-    if (Number.isFinite(until)) this.timer = setTimeout(() => this.#renew(), Math.min(Math.max(until - connection.now() + 50, 50), LONGEST_SLEEP_MS));
+    if (Number.isFinite(until)) this.timer = setTimeout(() => untilLifted().then(() => this.#renew()), Math.min(Math.max(until - connection.now() + 50, 50), LONGEST_SLEEP_MS));
   }
 }

@@ -36,7 +36,7 @@ export class LongList {
     this.latest = new Latest(leaving);
     [this.body] = table.tBodies;
     this.scroller = h('div.scroll.records', { tabindex: 0, role: 'region', 'aria-label': name, onscroll: () => this.#look(), onkeydown: (event) => this.#key(event) }, table);
-    this.input = h('input', { type: 'number', name: 'row', min: 1, onchange: () => this.#goTo(this.input.valueAsNumber - 1 || 0) });
+    this.input = h('input', { type: 'number', name: 'row', min: 1, onchange: () => this.#want(this.input.valueAsNumber - 1 || 0) });
     this.total = h('span.hint');
     this.place = h('label.place', { hidden: true }, h('span.label', t('parts.row')), this.input, this.total);
   }
@@ -46,6 +46,7 @@ export class LongList {
     this.held = [];
     this.start = 0;
     this.length = undefined;
+    this.wanted = undefined;
     this.ladder = null;
     this.per = 0;
     this.isBusy = false;
@@ -58,7 +59,14 @@ export class LongList {
       this.#put(rows, 0, { isTop: true, isBottom: rows.length < PAGE });
       this.scroller.scrollTop = 0;
     });
-    if (rank !== undefined && this.length - 1 - rank > 0) await this.#goTo(this.length - 1 - rank);
+    const first = this.wanted ?? (rank === undefined ? 0 : this.length - 1 - rank);
+    if (first > 0) await this.#goTo(first);
+  }
+
+  /** Goes to a row that was entered, as soon as it is there. */
+  #want(at) {
+    if (this.length === undefined) this.wanted = at;
+    else this.#goTo(at);
   }
 
   rowOfRecord(id) {

@@ -4,6 +4,7 @@ import { getJson, request, url } from '../api.js';
 import { confirm } from '../confirm.js';
 import { field, h, refill } from '../dom.js';
 import { dateTime, explain, number, t } from '../i18n.js';
+import { untilLifted } from '../press.js';
 import { go } from '../route.js';
 import { resolved, SchemaForm, schemas } from '../schema_form.js';
 
@@ -122,7 +123,9 @@ export function mount(main, route) {
   async function list() {
     clearTimeout(timer);
     try {
-      ({ connections: known } = await getJson(url(['connections']), { signal }));
+      const found = await getJson(url(['connections']), { signal });
+      await untilLifted();
+      known = found.connections;
       note.textContent = known.length ? '' : t('connection.none');
       table.hidden = !known.length;
       refill(rows, known.map((one) => row(one, { onOpen: () => open(one), onRemove: () => remove(one) })));

@@ -9,6 +9,7 @@ import { Latest } from '../latest.js';
 import { HeatMap } from '../overview/heat_map.js';
 import { bySeverity, isDoubtful, LAST, standingOf } from '../overview/standing.js';
 import { Wall } from '../overview/wall.js';
+import { untilLifted } from '../press.js';
 import { fragment, go } from '../route.js';
 import { FEWEST } from '../trend/figures.js';
 import { verdictShape, VERDICTS } from '../verdict.js';
@@ -122,6 +123,7 @@ export function mount(main, route) {
     await reading;
     try {
       const found = await standingsOf(names, leaving.signal);
+      await untilLifted();
       names.forEach((name, i) => standings.set(name, found[i]));
       draw();
     } catch (problem) {

@@ -8,6 +8,7 @@ import { follow } from '../events.js';
 import { FilterBar, searched } from '../filter_bar.js';
 import { date, dateTime, explain, signed, t, time } from '../i18n.js';
 import { Latest } from '../latest.js';
+import { untilLifted } from '../press.js';
 import { fragment, go } from '../route.js';
 import { CertificateForm } from '../parts/certificate.js';
 import { correct } from '../parts/correction.js';
@@ -151,14 +152,16 @@ export function mount(main, route) {
   }
 
   async function renew() {
-    timer = list.isBusy ? setTimeout(renew, GATHER_MS) : 0;
-    if (timer || location.hash !== address) return;
-    if (isInDoubt && !isAnew) {
+    if (isInDoubt && !isAnew && !list.isBusy) {
       const isOld = await list.isOld(leaving.signal).catch(() => null);
       isInDoubt = isOld === null;
       isAnew ||= isOld;
     }
-    if (leaving.signal.aborted || location.hash !== address) return;
+    await untilLifted();
+    // Somebody may have gone elsewhere meanwhile: that comes first.
+    if (leaving.signal.aborted) return;
+    timer = list.isBusy ? setTimeout(renew, GATHER_MS) : 0;
+    if (timer || location.hash !== address) return;
     if (isAnew) {
       isAnew = false;
       search(at);

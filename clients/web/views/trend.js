@@ -7,6 +7,7 @@ import { follow } from '../events.js';
 import { FilterBar } from '../filter_bar.js';
 import { explain, t } from '../i18n.js';
 import { Latest, pause } from '../latest.js';
+import { untilLifted } from '../press.js';
 import { go } from '../route.js';
 import { asideList, askAside, readNotes } from '../trend/aside.js';
 import { Boxes } from '../trend/boxes.js';
@@ -124,7 +125,9 @@ export function mount(main, route) {
         await pause();
         const charts = chartOfPhases(drawn, phased, charted, signal);
         await pause();
-        return Promise.all([charts, capability(newest, groups?.slice(from) ?? null, signal)]);
+        const found = await Promise.all([charts, capability(newest, groups?.slice(from) ?? null, signal)]);
+        await untilLifted();
+        return found;
       });
       if (!answers) return;
       await pause();

@@ -10,8 +10,8 @@
 import assert from 'node:assert/strict';
 import { before, describe, it } from 'node:test';
 
-import { close, findings, open, openIn, picture } from './support/browser.mjs';
-import { eventually } from './support/eventually.mjs';
+import { close, findings, open, openIn, picture, timer } from './support/browser.mjs';
+import { holdNext } from './support/hold.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 const ROWS = 100_000;
@@ -19,6 +19,8 @@ const IMPORT = 10_000;
 /** Rows that the page may hold, and questions that a place may take: those that find it, and steps of 1,000 rows into an import. */
 const MOST_ROWS = 300;
 const MOST_QUESTIONS = 40;
+/** The question for rows that came at the top. */
+const NEW_ROWS = /\/v1\/measurements\?(?=.*sort=oldest).*after=/;
 const VIEW = { viewport: { width: 1366, height: 768 } };
 
 /** The part in a row, the newest first. */
@@ -121,21 +123,40 @@ describe('the list of 100,000', () => {
 
   it('stays where somebody has scrolled to while it looks for new rows', async () => {
     const context = await browser.newContext(VIEW);
-    let go;
-    let isHeld = false;
-    const told = new Promise((resolve) => { go = resolve; });
-    await context.route(/\/v1\/measurements\?(?=.*sort=oldest).*after=/, async (route) => {
-      isHeld = true;
-      await told;
-      await route.continue().catch(() => {}); // the page may have given it up
-    });
+    const looking = await holdNext(context, NEW_ROWS);
     const page = await openIn(context, daemon, '#/parts?order=WO-L');
-    await eventually(() => assert.ok(isHeld));
+    await looking.asked;
     await page.$eval('.records', (list) => { list.scrollTop = (list.scrollHeight - list.clientHeight) / 2; });
-    go();
+    looking.go();
     await rest(page);
     const [[first]] = await inSight(page);
     assert.ok(Math.abs(first - ROWS / 2) < 20, String(first));
+    await close(page);
+  });
+
+  it('goes to the row that was entered while it looks for new rows, and while it is read anew', async () => {
+    const context = await browser.newContext(VIEW);
+    const looking = await holdNext(context, NEW_ROWS);
+    const page = await openIn(context, daemon, '#/parts?order=WO-L');
+    await looking.asked;
+    const finding = await holdNext(page, /\/v1\/measurements\/summary\?(?=.*received_to=)/);
+    await page.getByLabel('Row').fill('43211');
+    await page.getByLabel('Row').press('Enter');
+    await finding.asked;
+    const renewed = page.waitForResponse(NEW_ROWS);
+    looking.go();
+    await renewed;
+    await timer(page, 1000);
+    finding.go();
+    const rows = await seen(page, 43_210);
+    const reading = await holdNext(page, /\/v1\/measurements\?(?=.*sort=newest)/);
+    const { measurements: [{ id }] } = await daemon.json(`/v1/measurements?part_id=${rows[0][1]}`);
+    await daemon.send('POST', `/v1/measurements/${id}/notes`, { text: 'seen' });
+    await reading.asked;
+    await page.getByLabel('Row').fill('20001');
+    await page.getByLabel('Row').press('Enter');
+    reading.go();
+    await seen(page, 20_000);
     await close(page);
   });
 

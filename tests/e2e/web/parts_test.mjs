@@ -9,7 +9,7 @@
 import assert from 'node:assert/strict';
 import { afterEach, describe, it } from 'node:test';
 
-import { close, findings, hashOf, open, picture, saved } from './support/browser.mjs';
+import { close, findings, hashOf, open, openIn, picture, saved, timer } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
 import { holdAll } from './support/hold.mjs';
 import { scan } from './support/scanner.mjs';
@@ -315,6 +315,23 @@ describe('the parts', () => {
     await page.click('dialog .primary');
     await page.waitForFunction(() => /Insert 3 worn · Kim/.test(document.querySelector('.records tbody').textContent));
     assert.deepEqual((await daemon.stored('order=WO-W&notes=shown')).map(({ part_id, reason, notes }) => [part_id, reason, notes?.map(({ cause, operator }) => [cause, operator])]), [['SN-V', 'scanned twice', [['Insert 3 worn', 'Kim']]]]);
+  });
+
+  it('keep the button that is pressed, whatever is noted elsewhere meanwhile', async () => {
+    const record = await (await daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.01', part_id: 'SN-U', order: 'WO-U' })).json();
+    page = await open(browser, daemon, '#/parts?order=WO-U');
+    const other = await openIn(page.context(), daemon, '#/parts?order=WO-U');
+    await other.waitForSelector('.records tbody tr');
+    await page.locator('.records tbody tr').getByRole('button', { name: 'Correct' }).hover();
+    await page.mouse.down();
+    await daemon.send('POST', `/v1/measurements/${record.id}/notes`, { text: 'seen elsewhere' });
+    const isNoted = (one) => one.waitForFunction(() => /seen elsewhere/.test(document.querySelector('.records tbody tr')?.textContent));
+    await isNoted(other);
+    await timer(page, 1500);
+    await page.mouse.up();
+    await page.waitForSelector('dialog');
+    await page.keyboard.press('Escape');
+    await isNoted(page);
   });
 
   it('are corrected and noted once, however often it is asked for, and whatever becomes of the answer', async () => {

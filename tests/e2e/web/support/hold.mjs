@@ -2,9 +2,10 @@
 
 import { sleep } from './daemon.mjs';
 
+const wait = () => { AbortSignal.timeout = () => new AbortController().signal; };
+
 /** From here on the page waits for an answer as long as it takes, as a test that holds it back on a busy machine needs. */
 export async function patient(page) {
-  const wait = () => { AbortSignal.timeout = () => new AbortController().signal; };
   await page.addInitScript(wait);
   await page.evaluate(wait);
 }
@@ -36,4 +37,19 @@ export async function hold(page, where) {
     while (!held.length) await sleep(5);
     held.shift()();
   };
+}
+
+/** The next question there waits. @param stage a page, or the context of one that is opened later. @returns {asked, go}: the promise that it was asked, and what lets it through */
+export async function holdNext(stage, where) {
+  let go;
+  let tell;
+  const asked = new Promise((resolve) => { tell = resolve; });
+  const told = new Promise((resolve) => { go = resolve; });
+  await stage.addInitScript(wait);
+  await stage.route(where, async (route) => {
+    tell();
+    await told;
+    await route.continue().catch(() => {}); // the page may have given it up
+  }, { times: 1 });
+  return { asked, go };
 }
