@@ -34,9 +34,6 @@ constexpr int kLimitsOfSize[][2] = {
 /// A clearance height, and what lies below it.
 constexpr int kHeights[][2] = {{260, 261}, {260, 294}, {7, 5}};
 
-/// Depths with their sign, in a cycle or in all of this control (0).
-constexpr int kDepths[][2] = {{0, 201}, {20, 1}, {25, 1}, {276, 1}, {263, 356}, {264, 356}};
-
 /// The results of cycles.
 constexpr std::size_t kFirstResult = 150;
 constexpr std::size_t kEndOfResults = 200;
@@ -126,8 +123,7 @@ class Contradictions {
       const auto depth = constants_.value_of(program_, word.value);
       if (word.letter != klartext::Letter::Value || !depth || depth->value <= 0) continue;
       warn(DiagnosticCode::OrderContradicts, block_->written,
-           fmt::format("the depth {:+g} lies above the surface: write it with a minus",
-                       depth->value));
+           fmt::format("the depth {} {}", depth->value, kDepthNeeds));
     }
   }
   bool check_dialog(const CycleDescriptor& cycle, std::string_view dialog) {
@@ -260,8 +256,7 @@ class Contradictions {
   void visit(const klartext::Cycle& cycle) {
     const CycleDescriptor* descriptor = bind_cycle(program_, cycle).descriptor();
     if (descriptor == nullptr) {
-      auto values = constants_.known(program_, cycle, block_);
-      check_depths(cycle, values, false);
+      check_depth(cycle);
       leave();  // a program may replace it
       return;
     }
@@ -430,22 +425,21 @@ class Contradictions {
     if (found) {
       contradicts(
           values[found->parameter], values[found->other],
-          fmt::format("{}: the run fails when it calls cycle {}", found->text, descriptor.number));
+          fmt::format("{}: the run fails when it calls cycle {}", found->text, descriptor.number),
+          found->error == kDepthPositive);
     }
-    check_depths(cycle, values, true);
   }
 
-  void check_depths(const klartext::Cycle& cycle, std::map<int, FollowedValue>& values,
-                    bool is_known) {
-    for (const auto& [number, depth] : kDepths) {
-      if (cycle.family != klartext::CycleFamily::CyclDef || !values.contains(depth) ||
-          (number == 0 ? !is_known : number != cycle.number) || values[depth].value <= 0)
-        continue;
-      contradicts(values[depth], values[depth],
-                  fmt::format("the depth Q{} = {} lies above the surface: write it with a minus",
-                              depth, values[depth].value),
-                  true);
-    }
+  /// Q1 of two cycles that this control lacks is the depth of cycle 20.
+  void check_depth(const klartext::Cycle& cycle) {
+    if (cycle.family != klartext::CycleFamily::CyclDef ||
+        (cycle.number != 25 && cycle.number != 276))
+      return;
+    auto values = constants_.known(program_, cycle, block_);
+    const auto depth = values.find(1);
+    if (depth == values.end() || depth->second.value <= 0) return;
+    contradicts(depth->second, depth->second,
+                fmt::format("Q1 = {} {}", depth->second.value, kDepthNeeds), true);
   }
 
   /// `Q274=+50` directly after a cycle without Q274: the previous line has no `~`.

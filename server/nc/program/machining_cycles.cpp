@@ -407,11 +407,15 @@ constexpr auto kLess = [](double value, double other) { return value < other; };
 constexpr auto kMore = [](double value, double other) { return value > other; };
 constexpr auto kMoreThanHalf = [](double value, double other) { return value > other / 2; };
 constexpr auto kZero = [](double value, double) { return value == 0; };
+constexpr auto kPositive = [](double value, double) { return value > 0; };
 constexpr auto kReaches = [](double value, double depth) {
   return value > 0 && depth != 0 && value >= std::abs(depth);
 };
 
 constexpr Rule kRules[] = {
+    {kDepthPositive, 201, kDepthNeeds, 201, kPositive, {}},
+    {kDepthPositive, 1, kDepthNeeds, 1, kPositive, {20}},
+    {kDepthPositive, 356, kDepthNeeds, 356, kPositive, {263, 264}},
     {1016, 379, "reaches the depth", 201, kReaches, {205, 241}},
     {1098, 424, "is less than", 218, kLess, {256}},
     {1098, 425, "is less than", 219, kLess, {256}},
@@ -443,9 +447,12 @@ std::optional<CycleContradiction> contradiction(
     const auto one = value(rule.parameter);
     const auto other = value(rule.other);
     if (!one || !other || !rule.is_wrong(*one, *other)) continue;
-    std::string text = fmt::format("Q{} = {}", rule.parameter, *one);
-    if (rule.other != rule.parameter)
-      text += fmt::format(" {} Q{} = {}", rule.relation, rule.other, *other);
+    // 1 to 18 name it in words.
+    std::string text = cycle < 20 && rule.parameter == 201
+                           ? fmt::format("the depth {}", *one)
+                           : fmt::format("Q{} = {}", rule.parameter, *one);
+    if (!rule.relation.empty()) text += fmt::format(" {}", rule.relation);
+    if (rule.other != rule.parameter) text += fmt::format(" Q{} = {}", rule.other, *other);
     return CycleContradiction{rule.error, rule.parameter, rule.other, std::move(text)};
   }
   return std::nullopt;

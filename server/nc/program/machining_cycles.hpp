@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "nc/klartext/statement.hpp"
 #include "nc/probing/cycle_descriptor.hpp"
@@ -51,6 +52,10 @@ struct CycleContradiction {
   int other = 0;      ///< the parameter that it contradicts; itself if it is wrong alone
   std::string text{};
 };
+
+/// A depth above the surface, which a control refuses with displayDepthErr.
+inline constexpr int kDepthPositive = 1077;
+inline constexpr std::string_view kDepthNeeds = "must have a minus";
 
 /// The first contradiction between the known values of a cycle. @param value of a parameter, or
 /// nothing if it is unknown

@@ -19,18 +19,16 @@ struct Depths {
   double clearance;
   double safe;    ///< Q7
   double infeed;  ///< 0: at once
-  double down;    ///< -1, or 1 where the depth is positive
 
   Depths(const MachiningDefinition& data, double infeed_of_cycle, bool leaves_floor)
       : surface(data.value(5)),
         bottom(surface + data.value(1)),
         clearance(surface + data.value(6)),
         safe(data.value(7)),
-        infeed(std::abs(infeed_of_cycle)),
-        down(bottom < surface ? -1 : 1) {
-    if (leaves_floor) bottom -= down * data.value(4);
+        infeed(std::abs(infeed_of_cycle)) {
+    if (leaves_floor) bottom += data.value(4);
   }
-  bool is_empty() const { return (bottom - surface) * down <= 0; }
+  bool is_empty() const { return bottom >= surface; }
 };
 
 class ContourCycle {
@@ -79,7 +77,7 @@ class ContourCycle {
     for (double depth = depths_.surface; depth != depths_.bottom;) {
       const bool is_last =
           depths_.infeed == 0 || std::abs(depths_.bottom - depth) <= depths_.infeed;
-      const double next = is_last ? depths_.bottom : depth + depths_.down * depths_.infeed;
+      const double next = is_last ? depths_.bottom : depth - depths_.infeed;
       if (next == depth) return nc_error(1011, "the plunging depth Q10 is too small");
       depth = next;
       TRY(cut(depth));
@@ -146,7 +144,7 @@ class ContourCycle {
       TRY(motion_.to_height(depth, cycle_.feed(11)));
       if (depth == depths_.bottom) return {};
       TRY(motion_.to_height(depths_.clearance, Feed::rapid()));
-      return motion_.to_height(depth - depths_.down * above, Feed::rapid());
+      return motion_.to_height(depth + above, Feed::rapid());
     });
   }
 

@@ -36,15 +36,14 @@ class Drilling {
         motion_(cycle.motion),
         heights_(cycle.heights),
         number_(cycle.definition.cycle->descriptor.number),
-        down_(heights_.bottom < heights_.surface ? -1 : 1),
-        begin_(heights_.surface + down_ * cycle.value(379)) {}
+        begin_(heights_.surface - cycle.value(379)) {}
 
   NcResult<void> run() {
     TRY(cycle_.start());
     const machine::Modes before = motion_.state().modes;
     TRY(set_spindle(before, false));
     if (cycle_.value(379) != 0) {
-      const double above = begin_ - down_ * cycle_.value(200);
+      const double above = begin_ + cycle_.value(200);
       TRY(motion_.to_height(above, cycle_.feed(253)));
     }
     TRY(set_spindle(before, true));
@@ -94,7 +93,7 @@ class Drilling {
     while (reached != heights_.bottom) {
       const double size = is_pecking() ? infeed.next() : 0;
       const double left = std::abs(heights_.bottom - reached);
-      const double next = size <= 0 || left <= size ? heights_.bottom : reached + down_ * size;
+      const double next = size <= 0 || left <= size ? heights_.bottom : reached - size;
       if (next == reached) return nc_error(1011, "the plunging depth Q202 is too small");
       TRY(plunge(reached, next));
       reached = next;
@@ -117,7 +116,7 @@ class Drilling {
   NcResult<void> plunge(double from, double to) {
     const double chip = is_universal() ? cycle_.value(257) : 0;
     for (double at = from; chip > 0 && std::abs(to - at) > chip;) {
-      const double next = at + down_ * chip;
+      const double next = at - chip;
       if (next == at) return nc_error(1011, "the depth for chip breaking Q257 is too small");
       at = next;
       TRY(motion_.to_height(at, cycle_.feed(206)));
@@ -125,9 +124,9 @@ class Drilling {
     }
     if (!is_single_lip() || cycle_.value(435) == 0) return motion_.to_height(to, cycle_.feed(206));
     // Beyond the dwell depth at Q401 percent of the feed.
-    const double slows_at = heights_.surface + down_ * std::abs(cycle_.value(435));
-    const bool is_short = (to - slows_at) * down_ <= 0;
-    if ((from - slows_at) * down_ < 0) {
+    const double slows_at = heights_.surface - std::abs(cycle_.value(435));
+    const bool is_short = to >= slows_at;
+    if (from > slows_at) {
       auto done = motion_.to_height(is_short ? to : slows_at, cycle_.feed(206));
       if (done && !is_short) done = motion_.dwell(cycle_.value(211));
       if (!done || is_short) return done;
@@ -136,7 +135,7 @@ class Drilling {
   }
 
   NcResult<void> break_chip(double reached) {
-    return motion_.to_height(reached - down_ * cycle_.value(256), cycle_.retraction());
+    return motion_.to_height(reached + cycle_.value(256), cycle_.retraction());
   }
 
   /// Out to the clearance, and back to the stop above the reached depth.
@@ -144,16 +143,14 @@ class Drilling {
     TRY(motion_.to_height(heights_.clearance,
                           number_ == 203 ? cycle_.retraction() : Feed::rapid()));
     TRY(motion_.dwell(cycle_.value(210)));
-    const double above = reached - down_ * stop_above(reached);
-    const bool is_below = (above - heights_.clearance) * down_ > 0;
-    return is_below ? motion_.to_height(above, Feed::rapid()) : NcResult<void>();
+    const double above = reached + stop_above(reached);
+    return above < heights_.clearance ? motion_.to_height(above, Feed::rapid()) : NcResult<void>();
   }
 
   Machining& cycle_;
   ToolMotion& motion_;
   const Heights& heights_;
   const int number_;
-  const double down_;
   const double begin_;  ///< where the hole begins: the surface, or the deepened starting point
 };
 
@@ -185,15 +182,14 @@ NcResult<void> tap(Machining& cycle) {
   const Heights& heights = cycle.heights;
   ToolMotion& motion = cycle.motion;
   TRY(cycle.start());
-  const double down = heights.bottom < heights.surface ? -1 : 1;
   const double chip = cycle.value(257);
   for (double at = heights.surface; chip > 0 && std::abs(heights.bottom - at) > chip;) {
-    const double next = at + down * chip;
+    const double next = at - chip;
     if (next == at) return nc_error(1011, "the depth for chip breaking Q257 is too small");
     at = next;
     TRY(motion.to_height(at, thread_feed(cycle)));
     // Q256 = 0: out of the hole.
-    const double back = cycle.value(256) > 0 ? at - down * cycle.value(256) : heights.clearance;
+    const double back = cycle.value(256) > 0 ? at + cycle.value(256) : heights.clearance;
     TRY(motion.to_height(back, thread_feed(cycle)));
   }
   TRY(motion.to_height(heights.bottom, thread_feed(cycle)));

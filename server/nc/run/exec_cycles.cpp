@@ -89,6 +89,7 @@ NcResult<void> define(Channel& channel, MachiningDefinition definition) {
   ActiveCycle& active = channel.active_cycle;
   const MachiningShape shape = definition.cycle->shape;
   if (shape == MachiningShape::ContourData) {
+    TRY(check_values(definition));
     active.contour_data = std::move(definition);
     return {};
   }

@@ -142,16 +142,20 @@ NcResult<void> Machining::leave() {
   return motion.to_height(heights.second, machine::Feed::rapid());
 }
 
+NcResult<void> check_values(const MachiningDefinition& definition) {
+  const auto found = contradiction(definition.cycle->descriptor.number, [&](int parameter) {
+    const auto at = definition.values.find(parameter);
+    return at == definition.values.end() ? std::nullopt : std::optional(at->second);
+  });
+  return found ? nc_error(found->error, found->text) : NcResult<void>();
+}
+
 NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definition) {
   const MachiningShape shape = definition.cycle->shape;
   if (shape > MachiningShape::Tapping && shape != MachiningShape::Engraving)
     TRY(check_scaling(channel.machine().state(), working_plane(channel.machine()),
                       "milling cycles are"));
-  const auto found = contradiction(definition.cycle->descriptor.number, [&](int parameter) {
-    const auto at = definition.values.find(parameter);
-    return at == definition.values.end() ? std::nullopt : std::optional(at->second);
-  });
-  if (found) return nc_error(found->error, found->text);
+  TRY(check_values(definition));
   Machining cycle({channel.machine(), channel.budget}, definition);
   TRY(note_standing(channel, *definition.cycle));
   TRY(note_probe(channel, *definition.cycle));

@@ -102,7 +102,10 @@ NcResult<void> run_pattern(Channel& channel, const MachiningDefinition& pattern)
 /// CYCL CALL PAT.
 NcResult<void> run_points(Channel& channel);
 
-/// The cycle that M99 runs at the position of the tool. @errors those of contradiction(), 1108.
+/// @errors those of contradiction().
+NcResult<void> check_values(const MachiningDefinition& definition);
+
+/// The cycle that M99 runs at the position of the tool. @errors those of check_values(), 1108.
 NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definition);
 
 }  // namespace fitgauge::interpreter

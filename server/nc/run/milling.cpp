@@ -23,19 +23,12 @@ double bottom_of(const Machining& cycle) {
   return cycle.heights.bottom + (cycle.value(215) == 1 ? cycle.value(369) : 0);
 }
 
-/// Drilling may go up, into a part from below; milling cutters go down.
-NcResult<void> check_depth(const Machining& cycle) {
-  if (cycle.heights.bottom <= cycle.heights.surface) return {};
-  return nc_error(1012, "the depth Q201 is negative: milling goes down from the surface");
-}
-
 /// Calls `mill` at each depth, after plunging at `where`.
 template <class Mill>
 NcResult<void> at_each_depth(Machining& cycle, Vec2 where, const Mill& mill) {
   ToolMotion& motion = cycle.motion;
   const double bottom = bottom_of(cycle);
   const double infeed = cycle.value(202) > 0 ? cycle.value(202) : std::abs(cycle.value(201));
-  TRY(check_depth(cycle));
   TRY(cycle.start());
   for (double depth = cycle.heights.surface; depth > bottom;) {
     const double next = depth - bottom <= infeed ? bottom : depth - infeed;
@@ -138,7 +131,6 @@ NcResult<void> mill_outside(Machining& cycle, double excess, const Point& point,
   constexpr double kBeside = 2;  // mm beside the blank; the control's value
   const double step = cycle.value(370) * cycle.motion.tool_radius();
   if (step <= 0) return does_not_fit(1002, cycle.motion.tool_radius());
-  TRY(check_depth(cycle));
   const double turn = turn_inside(cycle);
   const double rounds = std::max(1.0, std::ceil(excess / step - tolerance::kSamePoint));
   const Feed feed = cycle.feed(207);
@@ -207,7 +199,6 @@ NcResult<void> mill_bore(Machining& cycle) {
   const Heights& heights = cycle.heights;
   const double radius = cycle.value(335) / 2 - motion.tool_radius();
   if (radius < 0) return does_not_fit(1003, motion.tool_radius());
-  TRY(check_depth(cycle));
   TRY(cycle.start());
   const Feed feed = cycle.feed(206);
   if (radius < tolerance::kSamePoint) {  // a hole with the diameter of the tool is drilled
@@ -319,7 +310,6 @@ NcResult<void> mill_thread(Machining& cycle) {
   const double radius =
       number == 267 ? nominal + motion.tool_radius() : nominal - motion.tool_radius();
   if (radius <= 0) return does_not_fit(1003, motion.tool_radius());
-  TRY(check_depth(cycle));
   if (number == 264) TRY(drill_core(cycle));
   TRY(cycle.start());
   TRY(countersink(cycle));

@@ -89,7 +89,6 @@ TEST_CASE("studs and faces name what cannot be milled") {
   CHECK(error("257 STUD Q223=30 Q222=30 Q370=1" + depth) == 0);
   CHECK(error("257 STUD Q223=30 Q222=29.9999 Q370=1" + depth) == 1036);
   CHECK(error("256 STUD Q218=60 Q424=60 Q219=40 Q425=39 Q370=1" + depth) == 1098);
-  CHECK(error("256 STUD Q218=60 Q424=60 Q219=40 Q425=40 Q370=1 Q207=500 Q206=150 Q201=+5") == 1012);
   CHECK(error("232 FACE Q227=0 Q386=0 Q218=10 Q219=10") == 0);  // the control does not run it
   CHECK(error("232 FACE Q227=0 Q386=1 Q218=10 Q219=10") == 1016);
   mill.setup.machine.tools.back().row.r = 0;
@@ -194,18 +193,6 @@ TEST_CASE("254: Q376 is the angle of the place on which the tool stands") {
   CHECK(has(slot("1"), "ARC X-31 Y-30 Z-4 CC X+10 Y-30 Z-4 +90 F300"));
   CHECK(has(slot("3"), "ARC X+10 Y+11 Z-4 CC X+10 Y-30 Z-4 +90 F300"));
   CHECK(has(slot("2"), "ARC X-18.9914 Y-1.0086 Z-4 CC X+10 Y-30 Z-4 +90 F300"));
-}
-
-TEST_CASE("a cutter does not mill up from the surface") {
-  Workshop mill;
-  for (const std::string cycle :
-       {"251 POCKET Q218=40 Q219=20 Q207=300 Q206=100", "252 POCKET Q223=30 Q207=300 Q206=100",
-        "253 SLOT Q218=30 Q219=10 Q207=300 Q206=100", "208 BORE Q335=20 Q334=1 Q206=100",
-        "262 THREAD Q335=20 Q239=1 Q207=300"}) {
-    mill.path("CYCL DEF " + cycle + " Q201=+4 Q200=2 Q203=+0\nCYCL CALL");
-    CAPTURE(cycle);
-    CHECK(mill.last.messages.back().number == 1012);
-  }
 }
 
 }  // namespace

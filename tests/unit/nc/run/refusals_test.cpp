@@ -127,6 +127,13 @@ TEST_CASE("values of a machining cycle that contradict each other end the run an
       {"251 ", "Q218=40 Q219=30 Q220=15.1" + pocket, "Q220 = 15.1"},
       {"251 ", "Q218=40 Q219=30 Q369=5" + pocket, "Q369 = 5"},
       {"254 ", "Q219=20 Q375=80 Q248=0" + pocket, "Q248 = 0"},
+      {"200 ", "Q201=5 Q206=100 Q202=5", "Q201 = 5 must have a minus"},
+      {"207 ", "Q201=5 Q239=1", "Q201 = 5 must have"},
+      {"208 ", "Q335=20 Q334=1 Q201=5 Q206=100", "Q201 = 5 must have"},
+      {"240 ", "Q343=0 Q201=5 Q206=100", "Q201 = 5 must have"},
+      {"256 ", "Q218=60 Q424=60 Q219=40 Q425=40 Q207=500 Q201=5 Q206=100", "Q201 = 5 must have"},
+      {"263 ", "Q335=20 Q239=1 Q201=-5 Q356=8 Q207=500", "Q356 = 8 must have"},
+      {"264 ", "Q335=20 Q239=1 Q201=-5 Q356=8 Q206=100 Q207=500", "Q356 = 8 must have"},
   };
   for (const auto& [cycle, values, message] : cases) {
     CAPTURE(cycle);
@@ -138,8 +145,21 @@ TEST_CASE("values of a machining cycle that contradict each other end the run an
   const std::string deepened = "CYCL DEF 205 Q201=-80 Q202=5 Q206=100 Q379=79";
   CHECK(findings(deepened, "Q379").empty());
   CHECK(ended(deepened + "\nL X+20 Y+20 R0 FMAX M3 M99") == "completed");
+  // The data of contours at their own block, cycles in sub-lines at their call.
+  const std::string minus = "must have a minus";
+  CHECK(fails("CYCL DEF 20 CONTOUR DATA Q1=+20",
+              "line 4: Enter depth as negative: Q1 = 20 " + minus));
+  for (const std::string cycle : {"1", "2", "4", "17"}) {
+    CAPTURE(cycle);
+    CHECK(fails("CYCL DEF " + cycle + ".0\nCYCL DEF " + cycle + ".1 2\nCYCL DEF " + cycle +
+                    ".2 +20\nCYCL CALL",
+                "line 7: Enter depth as negative: the depth 20 " + minus));
+  }
   // A diameter instead of the depth (240), a surface that is already milled (232).
-  CHECK(findings("CYCL DEF 240 Q343=1 Q201=0 Q344=-5 Q206=100", "Q201").empty());
+  for (const std::string depth : {"0", "5"}) {
+    const std::string centre = "CYCL DEF 240 Q343=1 Q201=" + depth + " Q344=-5 Q206=100";
+    CHECK(findings(centre, "Q201").empty());
+  }
   CHECK(findings("CYCL DEF 232 Q227=0 Q386=0 Q218=40 Q219=30 Q207=500", "Q386").empty());
 }
 
