@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <bitset>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -14,6 +16,7 @@
 #include "nc/program/blank_form.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
+#include "nc/program/machining_cycles.hpp"
 #include "nc/program/parameter.hpp"
 #include "nc/program/system_addresses.hpp"
 #include "nc/program/word_senses.hpp"
@@ -76,6 +79,67 @@ bool cuts(const probing::CycleParameter& parameter) {
   return std::ranges::find(kCutting, static_cast<int>(parameter.id)) != std::end(kCutting);
 }
 
+/// ID, NR and IDX as far as they are whole numbers.
+struct SystemAddress {
+  std::optional<int> id;
+  std::optional<int> number;
+  std::optional<int> index;
+  bool is_known = false;  ///< IDX is a number, or there is none
+};
+
+std::optional<SystemAddress> system_address(const klartext::Program& program,
+                                            const klartext::Expr& address, klartext::Operator op) {
+  const auto* node = std::get_if<klartext::NodeIndex>(&address);
+  if (node == nullptr || program.node(*node).op != op) return std::nullopt;
+  const auto operands = program.operands(*node);
+  const auto whole = [&](std::size_t i) {
+    const auto* value = i < operands.size() ? std::get_if<double>(&operands[i]) : nullptr;
+    constexpr double kLargest = 1e9;
+    return value == nullptr
+               ? std::nullopt
+               : std::optional(static_cast<int>(std::clamp(*value, -kLargest, kLargest)));
+  };
+  const auto index = whole(2);
+  const bool is_known = operands.size() < 3 || klartext::is_absent(operands[2]) || index;
+  return SystemAddress{whole(0), whole(1), index, is_known};
+}
+
+/// What a program gives to FN 18.
+struct Given {
+  std::bitset<5> needs;  ///< by SystemNeed
+  std::set<int> texts;   ///< QS that it sets
+
+  explicit Given(const klartext::Program& program) {
+    for (const Block& block : program.blocks())
+      std::visit([this](const auto& statement) { add(statement); }, block.statement);
+  }
+  bool gives(const SystemAddress& address, SystemNeed need) const {
+    if (need == SystemNeed::Text && address.index && texts.contains(*address.index)) return true;
+    return needs.test(static_cast<std::size_t>(need));
+  }
+
+ private:
+  void give(SystemNeed need) { needs.set(static_cast<std::size_t>(need)); }
+  void add(const auto&) {}
+  void add(const klartext::ToolCall&) { give(SystemNeed::Probe); }
+  void add(const klartext::Assignment& assignment) {
+    if (assignment.target.is_string()) texts.insert(assignment.target.number);
+  }
+  void add(const klartext::TableRead&) { give(SystemNeed::Text); }
+  void add(const klartext::CallProgram&) { needs.set(); }
+  void add(const klartext::CallSelectedProgram&) { needs.set(); }
+  void add(const klartext::Cycle& cycle) { add_cycle(cycle.family, cycle.number, false); }
+  void add(const klartext::CyclePart& part) { add_cycle(part.family, part.number, true); }
+  void add_cycle(klartext::CycleFamily family, int number, bool is_dotted) {
+    // Other programs may be behind cycle 12 and the cycles of the builder.
+    if (!is_available(family, number, is_dotted) || number == 12) needs.set();
+    if (family == klartext::CycleFamily::TchProbe)
+      give(SystemNeed::Touch);
+    else if (machining_cycle(number) != nullptr)
+      give(SystemNeed::Cycle);
+  }
+};
+
 /// Finds the faults of one block.
 class BlockCheck {
  public:
@@ -116,24 +180,12 @@ class BlockCheck {
 
   /// The data of FN 17 or FN 18 must be those that this control has.
   void check_system_data(const klartext::Expr& address, bool writes) {
-    const auto* node = std::get_if<klartext::NodeIndex>(&address);
     const auto op = writes ? klartext::Operator::SystemAddress : klartext::Operator::SystemRead;
-    if (node == nullptr || program_.node(*node).op != op) return;
-    const auto operands = program_.operands(*node);
-    const auto whole = [&](std::size_t i) {
-      const auto* value = i < operands.size() ? std::get_if<double>(&operands[i]) : nullptr;
-      constexpr double kLargest = 1e9;
-      return value == nullptr
-                 ? std::nullopt
-                 : std::optional(static_cast<int>(std::clamp(*value, -kLargest, kLargest)));
-    };
-    const auto id = whole(0);
-    const auto number = whole(1);
-    const auto index = whole(2);
-    const bool is_indexed = operands.size() < 3 || klartext::is_absent(operands[2]) || index;
-    if (!id) return;
+    const auto written = system_address(program_, address, op);
+    if (!written || !written->id) return;
+    const auto& [id, number, index, is_known] = *written;
     const bool has_number = has_system_data(*id, number, writes);
-    const bool lacks_index = has_number && number && is_indexed && !has_index(*id, *number, index);
+    const bool lacks_index = has_number && number && is_known && !has_index(*id, *number, index);
     if (has_number && !lacks_index) return;
     const bool has_id = has_system_data(*id, std::nullopt, writes);
     report(Severity::Warning, DiagnosticCode::FeatureUnsupported, block_.written,
@@ -366,6 +418,33 @@ std::uint32_t first_part(const klartext::Program& program, std::uint32_t index) 
   if (!std::holds_alternative<CyclePart>(program.blocks()[index].statement)) return index;
   while (const auto before = neighbour(program, index, -1)) index = *before;
   return index;
+}
+
+void check_system_needs(const klartext::Program& program,
+                        std::vector<klartext::Diagnostic>& diagnostics) {
+  constexpr std::string_view kNeeds[] = {"", "an active cycle", "a text in QS",
+                                         "a touch probe in the spindle", "a touch before it"};
+  std::optional<Given> given;
+  for (const Block& block : program.blocks()) {
+    const auto* assignment = std::get_if<klartext::Assignment>(&block.statement);
+    if (assignment == nullptr || diagnostics.size() >= kMostFindings) continue;
+    const auto address = system_address(program, assignment->value, klartext::Operator::SystemRead);
+    if (!address) continue;
+    const int id = address->id.value_or(0);
+    const int number = address->number.value_or(0);
+    const SystemNeed need = need_of(id, number);
+    if (need == SystemNeed::Nothing || !has_system_data(id, number, false)) continue;
+    if (need == SystemNeed::Text && !address->index) continue;
+    if (address->is_known && !has_index(id, number, address->index)) continue;  // not available
+    if (!given) given.emplace(program);
+    if (given->gives(*address, need)) continue;
+    diagnostics.push_back(diagnose(
+        program, block, block.written, Severity::Note, DiagnosticCode::FeatureUnsupported,
+        fmt::format("FN 18: ID{} NR{} needs {}{}, which nothing in this program gives: the run "
+                    "fails here unless its caller has given it",
+                    id, number, kNeeds[static_cast<std::size_t>(need)],
+                    need == SystemNeed::Text ? std::to_string(address->index.value_or(0)) : "")));
+  }
 }
 
 void check_block(const klartext::Program& program, std::uint32_t index,

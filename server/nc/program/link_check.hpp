@@ -15,6 +15,10 @@ bool has_effect(const klartext::Program& program, std::uint32_t block);
 /// Returns the block that opens the dotted cycle of the sub-line `block`; for other blocks `block`.
 std::uint32_t first_part(const klartext::Program& program, std::uint32_t block);
 
+/// Notes FN 18 of a program that gives nowhere what the run needs for it.
+void check_system_needs(const klartext::Program& program,
+                        std::vector<klartext::Diagnostic>& diagnostics);
+
 /// Reports faults of the cycle of a block (unknown or invalid parameters: errors; an unavailable
 /// cycle: a warning) and unavailable M functions (warnings).
 void check_block(const klartext::Program& program, std::uint32_t block,

@@ -365,6 +365,7 @@ LinkedFile link(klartext::ParsedProgram parsed, const ControlPath& path) {
     return file;
   }
   LinkedParts parts = Linker(parsed.program, file).link();
+  check_system_needs(parsed.program, file.diagnostics);
   check_contradictions(parsed.program, file.diagnostics);
   std::stable_sort(file.diagnostics.begin(), file.diagnostics.end(),
                    [](const auto& a, const auto& b) { return a.range.begin < b.range.begin; });

@@ -65,4 +65,11 @@ bool has_index(int id, int number, std::optional<int> index) {
   return index.value_or(first == 0 ? -1 : 1) >= first && index.value_or(1) <= data->last;
 }
 
+SystemNeed need_of(int id, int number) {
+  if (id == 360) return SystemNeed::Touch;
+  if (id == 350) return number == 20 || number == 21 ? SystemNeed::Nothing : SystemNeed::Probe;
+  if (id != 10 || number < 100) return SystemNeed::Nothing;
+  return number == 103 ? SystemNeed::Cycle : SystemNeed::Text;
+}
+
 }  // namespace fitgauge::interpreter

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -19,5 +20,10 @@ bool has_system_data(int id, std::optional<int> number, bool writes);
 
 /// Whether data that need an index, most of them an axis, have this one.
 bool has_index(int id, int number, std::optional<int> index);
+
+/// What the run needs for data, beside their index.
+enum class SystemNeed : std::uint8_t { Nothing, Cycle, Text, Probe, Touch };
+
+SystemNeed need_of(int id, int number);
 
 }  // namespace fitgauge::interpreter

@@ -89,8 +89,42 @@ TEST_CASE("the check names system data that this control lacks") {
   CHECK(found("FN 18: SYSREAD Q1 = ID220 NR2 IDX30") == "FN 18: ID220 NR2 IDX30" + fails);
   CHECK(found("FN 18: SYSREAD Q1 = ID220 NR2 IDX6") == "");
   CHECK(found("FN 18: SYSREAD Q1 = ID10 NR103") == "FN 18: ID10 NR103" + fails);
-  CHECK(found("FN 18: SYSREAD Q1 = ID10 NR110 IDX0") == "");
+  CHECK(found("QS0 = \"a.h\"\nFN 18: SYSREAD Q1 = ID10 NR110 IDX0") == "");
   CHECK(found("FN 18: SYSREAD Q1 = IDQ7 NR1") == "");
+}
+
+TEST_CASE("the check notes system data that the run refuses for want of a cycle, probe or text") {
+  struct Case {
+    std::string address;
+    std::string need;
+    std::string given;
+  };
+  const Case cases[] = {
+      {"ID10 NR103 IDX201", "an active cycle", "CYCL DEF 200 DRILLING Q201=-5 Q206=100"},
+      {"ID10 NR110 IDX5", "a text in QS5", "QS5 = \"a.h\""},
+      {"ID10 NR111 IDX5", "a text in QS5", "QS5 = \"a\""},
+      {"ID350 NR10", "a touch probe in the spindle", "TOOL CALL 30 Z"},
+      {"ID360 NR1 IDX1", "a touch before it",
+       "TOOL CALL 30 Z\nL Z+300 FMAX\nTCH PROBE 0.0 REF. PLANE Q7 Z-\nTCH PROBE 0.1 X+10 Y+10 Z+5"},
+  };
+  for (const auto& [address, need, given] : cases) {
+    CAPTURE(address);
+    const auto notes = [&](const std::string& before) {
+      Control control;
+      control.file("other.h", "BEGIN PGM OTHER MM\nEND PGM OTHER MM\n");
+      control.program(before + "\nFN 18: SYSREAD Q1 = " + address);
+      std::string all;
+      for (const auto& each : control.diagnostics())
+        if (each.message.starts_with("FN 18")) all += word(each.severity), all += each.message;
+      return all;
+    };
+    CHECK(notes("Q1 = 0").starts_with("noteFN 18: " + address.substr(0, address.find(" IDX")) +
+                                      " needs " + need + ", which nothing"));
+    CHECK(notes(given) == "");
+    CHECK(notes("CALL PGM other.h") == "");
+    CHECK(system_data(address).starts_with("failed"));
+    CHECK_FALSE(system_data(address, given).starts_with("failed"));
+  }
 }
 
 TEST_CASE("FN 17 writes every column of a tool that FN 18 reads") {
