@@ -12,19 +12,29 @@ namespace {
 using klartext::BlankForm;
 using klartext::BlankKind;
 
+constexpr std::size_t kMostSearched = 1'000;
+
+bool is_lower_corner(const klartext::Block& block) {
+  const auto* blank = std::get_if<BlankForm>(&block.statement);
+  return blank != nullptr && blank->kind == BlankKind::Minimum;
+}
+
 /// The block of the last BLK FORM 0.1 before a block, or null.
 const klartext::Block* lower_corner(const klartext::Program& program,
                                     const klartext::Block& block) {
-  constexpr int kMostBetween = 1'000;
   const klartext::Block* at = &block;
-  for (int passed = 0; passed < kMostBetween && at != program.blocks().data(); ++passed) {
-    const auto* blank = std::get_if<BlankForm>(&(--at)->statement);
-    if (blank != nullptr && blank->kind == BlankKind::Minimum) return at;
+  for (std::size_t passed = 0; passed < kMostSearched && at != program.blocks().data(); ++passed) {
+    if (is_lower_corner(*--at)) return at;
   }
   return nullptr;
 }
 
 }  // namespace
+
+bool has_lower_corner(const klartext::Program& program) {
+  const auto blocks = program.blocks();
+  return std::ranges::any_of(blocks.first(std::min(blocks.size(), kMostSearched)), is_lower_corner);
+}
 
 std::vector<std::string> blank_faults(const klartext::Program& program,
                                       const klartext::Block& block, const BlankValue& value) {

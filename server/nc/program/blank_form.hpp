@@ -13,6 +13,10 @@ namespace fitgauge::interpreter {
 inline constexpr std::string_view kNoLowerCorner =
     "BLK FORM 0.2 stands without BLK FORM 0.1 before it";
 
+/// Whether one of the first thousand blocks is a BLK FORM 0.1, for the programs that this one
+/// calls.
+bool has_lower_corner(const klartext::Program& program);
+
 using BlankValue = std::function<std::optional<double>(const klartext::Expr&)>;
 
 /// The faults of a BLK FORM 0.1 or 0.2 and its other corner. Empty for other blocks. @param

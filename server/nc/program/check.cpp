@@ -43,7 +43,7 @@ class Walk {
              "called",
              klartext::DiagnosticCode::ProgramTooLarge);
       } else {
-        visit_called(named.path);
+        visit_called(named);
       }
     }
     return true;
@@ -52,10 +52,18 @@ class Walk {
   std::vector<Diagnostic> take() { return std::move(diagnostics_); }
 
  private:
-  /// A program of which the caller may have the lower corner of the blank.
-  void visit_called(const ControlPath& path) {
+  /// A program to check, and the place of its name.
+  struct Named {
+    ControlPath path;
+    FileReference reference;
+    bool has_corner = false;  ///< a caller has the lower corner of the blank
+  };
+
+  void visit_called(const Named& named) {
     const auto before = static_cast<std::ptrdiff_t>(diagnostics_.size());
-    visit(path);
+    has_corner_ = named.has_corner;
+    visit(named.path);
+    if (!named.has_corner) return;
     const auto dropped =
         std::remove_if(diagnostics_.begin() + before, diagnostics_.end(),
                        [](const Diagnostic& found) { return found.message == kNoLowerCorner; });
@@ -65,6 +73,8 @@ class Walk {
   bool visit(const ControlPath& path) {
     const auto linked = programs_.get(disk_, path);
     if (linked == nullptr) return false;
+    const auto& known = linked->with_error_blocks;
+    has_corner_ = has_corner_ || known == nullptr || has_lower_corner(known->program());
     add(linked->diagnostics);
     const auto before = static_cast<std::ptrdiff_t>(diagnostics_.size());
     for (const FileReference& reference : linked->references) follow(path, reference);
@@ -75,12 +85,6 @@ class Walk {
     diagnostics_.erase(ignored, diagnostics_.end());
     return true;
   }
-
-  /// A program to check, and the place of its name.
-  struct Named {
-    ControlPath path;
-    FileReference reference;
-  };
 
   void add(const std::vector<Diagnostic>& found) {
     const std::size_t room = kMostFindings - diagnostics_.size();
@@ -101,7 +105,7 @@ class Walk {
     }
     if (!reference.columns.empty()) return read_cells(named, reference);
     if (!is_program || !seen_.insert(named.key()).second) return;
-    pending_.push_back({std::move(named), reference});
+    pending_.push_back({std::move(named), reference, has_corner_});
   }
 
   /// Warns of the first missing column of the table, or of a missing row.
@@ -141,6 +145,7 @@ class Walk {
   const ControlDisk& disk_;
   ProgramCache& programs_;
   Allowance& allowance_;
+  bool has_corner_ = false;  ///< of the program that is looked at, or of its callers
   std::set<std::string> seen_;
   std::map<std::string, std::shared_ptr<const tabfile::TabTable>> tables_;
   std::deque<Named> pending_;

@@ -140,8 +140,12 @@ NcResult<void> execute(Channel& channel, const klartext::BlankForm&) {
     const auto known = number(channel, written);
     return known ? std::optional(*known) : std::nullopt;
   };
+  const auto gives_corner = [&](const Place& call) {
+    return call.program != &channel.linked() && has_lower_corner(call.program->program());
+  };
   for (std::string& fault : blank_faults(channel.program(), channel.place().source(), value)) {
-    if (fault == kNoLowerCorner && channel.calls.caller() != nullptr) continue;
+    if (fault == kNoLowerCorner && std::ranges::any_of(channel.calls.behind_calls(), gives_corner))
+      continue;
     TRY(channel.note(std::move(fault)));
   }
   return {};

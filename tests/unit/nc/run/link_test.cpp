@@ -122,6 +122,10 @@ TEST_CASE("a blank whose corners contradict each other is found") {
   CHECK(found("Q1 = 5\nBLK FORM 0.1 Z X+Q1 Y+0 Z-20\nQ1 = 30\nBLK FORM 0.2 X+Q1 Y+10 Z+0") == "");
   control.file("sub.h", "BEGIN PGM SUB MM\nBLK FORM 0.2 X+10 Y+10 Z+0\nEND PGM SUB MM\n");
   CHECK(found("BLK FORM 0.1 Z X+0 Y+0 Z-20\nCALL PGM sub.h") == "");
+  CHECK(found("CALL PGM sub.h") == "BLK FORM 0.2 stands without BLK FORM 0.1 before it");
+  control.file("between.h", "BEGIN PGM BETWEEN MM\nCALL PGM sub.h\nEND PGM BETWEEN MM\n");
+  CHECK(found("BLK FORM 0.1 Z X+0 Y+0 Z-20\nCALL PGM between.h") == "");
+  CHECK(found("CALL PGM between.h") == "BLK FORM 0.2 stands without BLK FORM 0.1 before it");
   CHECK(found("BLK FORM 0.1 Z IX+5 Y+0 Z-20\nBLK FORM 0.2 X+10 Y+10 Z+0") ==
         "the lower corner of the blank must be absolute: there is no position before it");
 }
@@ -142,6 +146,7 @@ TEST_CASE("a run notes a blank whose corners contradict each other") {
   CHECK(noted("Q1 = 5\nBLK FORM 0.1 Z X+Q1 Y+0 Z-20\nBLK FORM 0.2 X+20 Y+10 Z+0") == "");
   control.file("sub.h", "BEGIN PGM SUB MM\nBLK FORM 0.2 X+10 Y+10 Z+0\nEND PGM SUB MM\n");
   CHECK(noted("BLK FORM 0.1 Z X+0 Y+0 Z-20\nCALL PGM sub.h") == "");
+  CHECK(noted("CALL PGM sub.h") == "BLK FORM 0.2 stands without BLK FORM 0.1 before it\n");
 }
 
 TEST_CASE("M functions of one block that exclude each other are found before the run") {
