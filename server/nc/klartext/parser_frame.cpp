@@ -40,7 +40,8 @@ std::optional<Axis> parse_tool_axis(BlockReader& in) {
   return axis_of(*letter);
 }
 
-constexpr LetterSet kCylinder(Letter::R, Letter::D, Letter::L, Letter::Dist, Letter::Ri);
+constexpr LetterSet kCylinder(Letter::R, Letter::D, Letter::L, Letter::Dist, Letter::Ri,
+                              Letter::Di);
 
 Slice<Word> parse_rotation(BlockReader& in) {
   const std::uint32_t first = in.word_count();
