@@ -99,7 +99,7 @@ void print(const Context& context, std::string_view format, const std::vector<Di
   }
   if (format == "sarif") {
     context.print(
-        R"({{"version":"2.1.0","runs":[{{"tool":{{"driver":{{"name":"fitgauge","version":"{}"}}}},"results":[{}]}}]}})"
+        R"({{"version":"2.1.0","runs":[{{"tool":{{"driver":{{"name":"fitgauge","version":"{}"}}}},"columnKind":"unicodeCodePoints","results":[{}]}}]}})"
         "\n",
         FITGAUGE_VERSION, items);
   }

@@ -76,6 +76,17 @@ class Programs(ClientTest):
         self.assert_fails(4, "nc", "check", "a.h", "--level", "x=loud")
         self.assert_fails(5, "nc", "check", "gone.h")
 
+    def test_columns_of_sarif_are_characters(self):
+        line = "CYCL DEF 200 LÖCHER 😀 Q200=+2 Q201=+20 Q206=+150 Q202=+5"
+        self.client.write("a.h", f"BEGIN PGM A MM\n{line}\nEND PGM A MM\n")
+        run, = json.loads(self.assert_runs(1, "nc", "check", "a.h", "--format", "sarif"))["runs"]
+        found, = run["results"]
+        place = found["locations"][0]["physicalLocation"]["region"]
+        edit = found["fixes"][0]["artifactChanges"][0]["replacements"][0]["deletedRegion"]
+        self.assertEqual(run["columnKind"], "unicodeCodePoints")
+        self.assertEqual(line[place["startColumn"] - 1:][:4], "Q201")
+        self.assertEqual(line[edit["startColumn"] - 1:edit["endColumn"] - 1], "+20")
+
     def test_a_cutter_that_enters_the_part_in_rapid_is_noted_once(self):
         self.client.write("part.json", json.dumps({
             "machine": {"tools": [{"number": 5, "name": "MILL", "length_mm": 80, "radius_mm": 6}]},
