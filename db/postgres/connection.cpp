@@ -54,7 +54,7 @@ constexpr sql::Dialect kDialect{.is_shared = true, .keys_may_be_null = true};
 /// Settings of each session: bounds, so that nobody waits for ever for a server, a row or a lost
 /// client.
 constexpr const char* kSettings =
-    "SET search_path TO fitgauge; SET statement_timeout = '60s'; SET lock_timeout = '30s';"
+    "SET search_path TO fitgauge; SET lock_timeout = '30s';"
     "SET idle_in_transaction_session_timeout = '60s'; SET client_min_messages = warning;"
     "SET jit = off; SET bytea_output = hex; SET plan_cache_mode = auto";
 
@@ -75,7 +75,7 @@ Connection::Connection(const std::string& address, GivesUp gives_up)
   if (PQstatus(handle()) != CONNECTION_OK) throw_failure(handle(), nullptr);
   if (PQsetnonblocking(handle(), 1) != 0) lost();
   PQsetNoticeReceiver(handle(), on_notice, this);
-  execute(kSettings);
+  execute(fmt::format("SET statement_timeout = '{}s'; {}", kStatementSeconds, kSettings));
   if (PQenterPipelineMode(handle()) != 1) throw_failure(handle(), nullptr);
 }
 

@@ -48,8 +48,11 @@ inline constexpr const char* kNoAnswer = "PostgreSQL does not answer";
 /// Decides whether to give up a server that has been silent for so many seconds. Asked after each.
 using GivesUp = std::function<bool(int seconds)>;
 
-/// Longer than a statement may take.
-inline bool gives_up_statement(int seconds) { return seconds > 65; }
+/// The server ends a statement that takes longer.
+inline constexpr int kStatementSeconds = 60;
+
+/// The server has not ended the statement in time.
+inline bool gives_up_statement(int seconds) { return seconds > kStatementSeconds + 5; }
 
 /// A connection to the server that accepts writes. Statements without rows are sent without
 /// waiting; their failure is thrown by the next call that waits. Used by one thread at a time.
