@@ -33,7 +33,7 @@ CycleFault tolerance_stop(int number) {
 }
 
 CycleFault from_machine(const machine::MachineFault& fault) {
-  return {CycleFaultKind::Error, fault.number, fault.text};
+  return {CycleFaultKind::Error, fault.number, fault.text, fault.kind};
 }
 
 void throw_bad_cycle_result(const CycleFault& fault) {

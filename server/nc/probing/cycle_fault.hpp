@@ -2,6 +2,7 @@
 
 #include <boost/system/result.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,7 @@ struct CycleFault {
   CycleFaultKind kind{};
   int number = 0;    ///< 1000 to 1199, 0 if the control shows only text
   std::string text;  ///< the control's text, then what happened
+  std::optional<machine::FaultKind> of_machine{};  ///< if the machine has refused a command
 
   friend bool operator==(const CycleFault&, const CycleFault&) = default;
 };

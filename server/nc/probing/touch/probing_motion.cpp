@@ -102,8 +102,9 @@ CycleResult<Contact> ProbingMotion::probe(const Vec3& direction) {
                                        .retract = std::nullopt,
                                        .retract_feed = positioning_feed()});
   if (!contact && contact.error().kind == machine::FaultKind::NoContact) {
-    return nc_error(1014,
-                    fmt::format("nothing within DIST = {} mm of the start", probe_.data.distance));
+    return from_machine(
+        make_fault(machine::FaultKind::NoContact,
+                   fmt::format("nothing within DIST = {} mm of the start", probe_.data.distance)));
   }
   if (!contact) return from_machine(contact.error());
   publish_touch(machine_.state(), host_, *contact);

@@ -80,4 +80,14 @@ TEST_CASE("an error names the part that is there and the cycle for its side") {
   CHECK(part(both, 1411, with(mixed, {{1115, 2.0}})) == "no error");
 }
 
+TEST_CASE("a fault carries the kind of the machine's fault, and none of its own") {
+  const Values two{{268, 50.0}, {269, 80.0}, {270, 150.0}, {271, 80.0}, {260, 40.0}};
+  ProbingBench bosses(kBosses);
+  CHECK(bosses.run(401, with(two, {{261, 5.0}})) == -1);
+  CHECK(bosses.fault.of_machine == machine::FaultKind::Collision);
+  ProbingBench bores(kBores);
+  CHECK(bores.run(401, with(two, {{261, -5.0}, {270, 50.0}})) == 1081);
+  CHECK_FALSE(bores.fault.of_machine);
+}
+
 }  // namespace fitgauge::probing
