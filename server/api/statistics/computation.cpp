@@ -127,18 +127,19 @@ Error at_member(std::string_view name, Error error) {
 void add_computation(Routes& add, const Computation& computation) {
   const auto handler = [&services = add.services, compute = computation.compute](
                            const http::Request& request, http::Responder responder) {
-    services.jobs.figures.run(
-        [compute, &request]() -> Result<http::Response> {
-          const auto body = parse_json(request.body());
-          if (!body) {
-            Error error = body.error();
-            if (error.code == ErrorCode::BodyTooLarge)
-              error.message.append(": ").append(kOfManyValues);
-            return error;
-          }
-          return json_response(compute(*body));
-        },
-        answer_by(share(std::move(responder))));
+    services.jobs.figures_of(request.body().size())
+        .run(
+            [compute, &request]() -> Result<http::Response> {
+              auto body = parse_json(request.body());
+              if (!body) {
+                Error error = body.error();
+                if (error.code == ErrorCode::BodyTooLarge)
+                  error.message.append(": ").append(kOfManyValues);
+                return error;
+              }
+              return json_response(compute(*body));
+            },
+            answer_by(share(std::move(responder))));
   };
   add(fmt::format("POST {} viewer", computation.head), handler,
       {.summary = computation.summary,

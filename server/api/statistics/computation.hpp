@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -92,10 +93,11 @@ Error at_member(std::string_view name, Error error);
 
 /// A figure that is computed only from a JSON body.
 struct Computation {
-  std::string_view head;                                  ///< pattern and operation
-  Result<std::string> (*compute)(const JsonValue& body);  ///< returns the JSON of the response
-  std::string reads;                                      ///< the schema of the body, by name
-  std::string answers;                                    ///< the schema of the answer, by name
+  std::string_view head;  ///< pattern and operation
+  /// Returns the JSON of the response; may empty a body that it has read.
+  std::function<Result<std::string>(JsonValue& body)> compute;
+  std::string reads;    ///< the schema of the body, by name
+  std::string answers;  ///< the schema of the answer, by name
   std::string summary;
   std::string description{};
 };

@@ -250,26 +250,47 @@ std::string_view data_member(const JsonValue& body) {
   return body.find("subgroups") != nullptr ? "subgroups" : "values";
 }
 
-Result<std::string> capability(const JsonValue& body) {
+/// Room for one in the text of an answer.
+constexpr std::size_t kViolationText = 42;
+constexpr std::size_t kPointText = 26;
+
+/// The JSON of a long answer: a text that grows is there twice for a moment.
+template <class T>
+std::string body_json(const T& answer, std::size_t room) {
+  std::string out;
+  out.reserve(room);
+  JsonWriter json(out);
+  write_body(json, answer);
+  return out;
+}
+
+Result<std::string> capability(JsonValue& body) {
   const auto order = TRY(read_whole<CapabilityOrder>(body));
+  const std::string_view data = data_member(body);
+  body = {};  // a list of values takes most of the memory
   auto made = metrology::assess_capability(order.data, order.limits, order.confidence);
   if (!made) {
     const Error error = made.error();
     const bool of_limits = error.code == ErrorCode::LimitsInvalid;
-    const std::string_view member = of_limits ? "upper" : data_member(body);
+    const std::string_view member = of_limits ? "upper" : data;
     return at_member(error.where.empty() ? member : error.where, error);
   }
-  return body_json(CapabilityAnswer{*std::move(made), order.limits, order.confidence});
+  const std::size_t room = made->violations.size() * kViolationText;
+  return body_json(CapabilityAnswer{*std::move(made), order.limits, order.confidence}, room);
 }
 
-Result<std::string> chart(const JsonValue& body) {
+Result<std::string> chart(JsonValue& body) {
   const auto order = TRY(read_whole<ChartOrder>(body));
+  const std::string_view data = data_member(body);
+  body = {};
   auto made = metrology::make_charts(order.data, order.plan);
   if (!made) {
     const std::string& where = made.error().where;
-    return at_member(where.empty() ? data_member(body) : where, made.error());
+    return at_member(where.empty() ? data : where, made.error());
   }
-  return body_json(ChartAnswer{order.plan.kind, *std::move(made)});
+  const std::size_t room =
+      made->violations.size() * kViolationText + 2 * order.data.count() * kPointText;
+  return body_json(ChartAnswer{order.plan.kind, *std::move(made)}, room);
 }
 
 Result<std::string> pairing(const JsonValue& body) {

@@ -315,7 +315,9 @@ Result<ControlCharts> make_charts(const Subgroups& data, const ChartPlan& plan) 
   }
 
   const Location location(plan, data.size, centre, point_sigma);
-  for (const RuleViolation& found : find_violations(points, location.zones(), plan.rules)) {
+  const auto violations = find_violations(points, location.zones(), plan.rules);
+  made.violations.reserve(violations.size());
+  for (const RuleViolation& found : violations) {
     made.violations.push_back({needs_groups ? "xbar" : "i", found.rule, found.index});
   }
   made.charts.push_back({.name = needs_groups ? "xbar" : "i",

@@ -1,12 +1,13 @@
 """Each kind of work has threads of its own: figures that fill their pool hold up no order."""
 
+import concurrent.futures
 import contextlib
 import json
 import pathlib
 import selectors
 import unittest
 
-from support.daemon import JSON, Daemon
+from support.daemon import JSON, SANITIZED, Daemon
 from support.waiting import PATIENCE
 
 # Contributions that are all correlated: a trial multiplies each by all before it.
@@ -76,10 +77,20 @@ class Jobs(unittest.TestCase):
             # The end waits for none of them: those under way are called off, the others are refused.
             self.assertEqual(self.daemon.stop(), 0, self.daemon.log[-4000:])
 
+    @unittest.skipIf(SANITIZED, "a sanitizer needs memory of its own")
+    def test_long_figures_at_once_need_the_memory_of_one(self):
+        # A trend: every point breaks each rule, so the answer is longer than the values.
+        body = json.dumps({"values": list(range(400_000)), "lower": -1, "upper": 1_000_000}).encode()
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            answers = list(pool.map(lambda _: self.daemon.request("POST", "/v1/statistics/capability", body, JSON).status,
+                                    range(4)))
+        self.assertEqual(answers, [200] * 4)
+        self.assertLess(self.daemon.memory("VmHWM"), 200 << 20)
+
     def test_threads_show_their_kind_of_work(self):
         tasks = pathlib.Path(f"/proc/{self.daemon.process.pid}/task")
         names = {path.read_text().strip() for path in tasks.glob("*/comm")}
-        self.assertLessEqual({"orders", "figures", "bulk", "intake", "run", "writer", "I/O thread", "log"}, names)
+        self.assertLessEqual({"orders", "figures", "long figures", "bulk", "intake", "run", "writer", "I/O thread", "log"}, names)
 
 
 if __name__ == "__main__":
