@@ -41,7 +41,9 @@ Result<void> RunService::close_interrupted() {
     if (runs->empty()) return {};
     for (const store::Run& run : *runs) {
       const auto kept =
-          keep_failed(run, "the service ended before the run: no result of the run was stored");
+          keep_failed(run,
+                      "the service stopped before the end of the run was stored: the run has "
+                      "no results; start it again");
       // Another daemon may have been first.
       if (!kept && kept.error().code != ErrorCode::RunFinished) return kept.error();
     }
@@ -164,15 +166,18 @@ Result<FinishedRun> RunService::keep_or_wait(End end) {
 
 void RunService::store_waiting(const std::stop_token& stop) {
   constexpr std::chrono::seconds kBetween{1};
-  for (;;) {
+  for (bool is_last = false; !is_last;) {
     std::unique_lock lock(mutex_);
     end_waits_.wait(lock, stop, [this] { return !waiting_ends_.empty(); });
+    lock.unlock();
+    is_last = !wait_unless_stopped(stop, kBetween);
+    lock.lock();
     std::vector<End> ends = std::exchange(waiting_ends_, {});
     lock.unlock();
-    if (!wait_unless_stopped(stop, kBetween)) return;  // the next start marks the runs as failed
     for (End& end : ends) {
       end.report.finished_at = clock_.now();  // records never go back in time
-      static_cast<void>(keep_or_wait(std::move(end)));
+      // At a stop one refusal is enough: the next start marks the other runs as failed.
+      if (!keep_or_wait(std::move(end)) && is_last) return;
     }
   }
 }

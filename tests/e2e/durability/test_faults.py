@@ -8,6 +8,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
@@ -107,8 +108,8 @@ class FullDisk(FaultTest):
         self.assertEqual(os.statvfs(self.folder).f_bfree, free)
         self.wait_until_stored(daemon)
 
-    def test_a_run_that_ends_on_a_full_disk_is_over_when_there_is_room(self):
-        daemon = self.make_daemon(data=self.folder / "data").start()
+    def run_that_ends_on_a_full_disk(self, daemon):
+        """@returns its address, what posts it again, and the file that fills the disk"""
         program = "BEGIN PGM FOREVER MM\n" + "\n".join(FOREVER) + "\nEND PGM FOREVER MM\n"
         self.assertEqual(daemon.request("PUT", "/v1/files/forever.h", program.encode()).status, 201)
         order = {"program": "TNC:\\FOREVER.H", "limits": {"blocks": 100_000_000, "seconds": 60}}
@@ -123,6 +124,11 @@ class FullDisk(FaultTest):
             place = f"/v1/runs/{run['id']}"
             self.assert_unavailable(daemon.request("DELETE", place), "full")
             self.assert_unavailable(first.result(PATIENCE), "full")
+        return place, post, ballast
+
+    def test_a_run_that_ends_on_a_full_disk_is_over_when_there_is_room(self):
+        daemon = self.make_daemon(data=self.folder / "data").start()
+        place, post, ballast = self.run_that_ends_on_a_full_disk(daemon)
         self.assertEqual(daemon.get(place).json["status"], "running")
         self.assertEqual(post().json["code"], "idempotency.in_progress")
         ballast.unlink()
@@ -133,6 +139,29 @@ class FullDisk(FaultTest):
         self.assertEqual(repeated.json, stored)
         self.assertEqual(daemon.stop(), 0)
         self.assertEqual(daemon.command("verify").returncode, 0)
+
+    def test_a_stop_stores_the_end_of_a_run_that_waits_for_room(self):
+        daemon = self.make_daemon(data=self.folder / "data").start()
+        place, _, ballast = self.run_that_ends_on_a_full_disk(daemon)
+        daemon.process.send_signal(signal.SIGSTOP)  # no attempt between the room and the stop
+        ballast.unlink()
+        daemon.process.send_signal(signal.SIGTERM)
+        daemon.process.send_signal(signal.SIGCONT)
+        self.assertEqual(daemon.process.wait(PATIENCE), 0)
+        self.assertEqual(daemon.start().get(place).json["status"], "cancelled")
+        self.assertEqual(daemon.stop(), 0)
+
+    def test_a_start_says_that_the_end_of_a_run_was_not_stored(self):
+        daemon = self.make_daemon(data=self.folder / "data").start()
+        place, post, ballast = self.run_that_ends_on_a_full_disk(daemon)
+        self.assertEqual(daemon.stop(), 0)
+        ballast.unlink()
+        run = daemon.start().get(place).json
+        self.assertEqual(run["status"], "failed")
+        self.assertIn("stopped before the end of the run was stored", run["messages"][-1]["text"])
+        self.assertIn("start it again", run["messages"][-1]["text"])
+        self.assertEqual((post().status, post().json), (201, run), "the key names the failed run")
+        self.assertEqual(daemon.stop(), 0)
 
     def test_a_start_on_a_full_disk_says_so(self):
         self.fill()
