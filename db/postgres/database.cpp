@@ -24,12 +24,25 @@ bool has_schema(Connection& connection) {
   return find.returning<std::int64_t>(std::string_view("fitgauge")) > 0;
 }
 
-/// @pre there is the schema
+/// A restore makes a table's indexes after its rows, and this foreign key after all of them.
+constexpr const char* kIsWhole =
+    "SELECT (to_regclass('fitgauge.schema_migrations') IS NOT NULL"
+    " AND EXISTS (SELECT FROM pg_constraint WHERE connamespace = 'fitgauge'::regnamespace"
+    " AND conname = 'table_revisions_table_set_fkey')"
+    " AND NOT EXISTS (SELECT FROM pg_class t WHERE relnamespace = 'fitgauge'::regnamespace"
+    " AND relkind IN ('r', 'p') AND NOT EXISTS"
+    " (SELECT FROM pg_index i WHERE i.indrelid = t.oid AND i.indisvalid)))::int::int8";
+
+/// @pre there is the schema @errors also StorageUnavailable while a restore has not ended
 Result<std::size_t> taken_steps(Connection& connection) {
-  const auto steps = TRY(sql::check_steps(connection, migrations()));
+  sql::Statement whole(connection, kIsWhole);
+  const bool is_whole = whole.returning<std::int64_t>() == 1;
+  const auto steps = is_whole ? TRY(sql::check_steps(connection, migrations())) : 0;
   if (steps > 0) return static_cast<std::size_t>(steps);
-  return Error{ErrorCode::DatabaseForeign,
-               "the schema fitgauge of the database has no list of migrations"};
+  return Error{ErrorCode::StorageUnavailable,
+               "the schema fitgauge of the database is incomplete: a restore has not ended, or has "
+               "failed. Wait until it ends; after a failure DROP SCHEMA fitgauge CASCADE, and "
+               "restore again"};
 }
 
 /// Creates the schema if it is missing, runs the missing migrations of an older version, and checks

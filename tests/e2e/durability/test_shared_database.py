@@ -405,7 +405,7 @@ class Together(unittest.TestCase):
                          [["0"]], "it makes nothing")
         self.cluster.query("CREATE SCHEMA fitgauge; CREATE TABLE fitgauge.schema_migrations (number int8, checksum bytea)",
                            "empty")
-        for address, says in ((self.cluster.address("empty"), "has no list of migrations"),
+        for address, says in ((self.cluster.address("empty"), "is incomplete"),
                               (self.cluster.address("absent"), '"absent" does not exist'),
                               ("postgresql:///x?host=/nonexistent", "/nonexistent")):
             refused = check(address)
