@@ -164,9 +164,9 @@ Result<void> LogFollower::read_events() {
   if (options_.events.empty() || !pending_events_.empty()) return {};
   auto page = TRY(read_event_page(plant_.events, *progress_.event, kPage));
   if (page.gap) {
-    plant_.tell("connection_events_lost",
-                fmt::format("{}: the other side was absent for too long: raise event_retention",
-                            options_.name));
+    plant_.tell(
+        "connection_events_lost",
+        fmt::format("{}: the next events were removed: raise event_retention", options_.name));
   }
   if (page.events.empty()) return {};
   const std::int64_t last = page.events.back().id;

@@ -11,8 +11,8 @@ import threading
 import time
 import unittest
 
-from support.waiting import PATIENCE
-from support.webhooks import SECRETS, Receivers, part, signature
+from support.waiting import PATIENCE, wait_for
+from support.webhooks import PRIVATE, SECRETS, Receivers, part, signature
 
 SOURCES = pathlib.Path(__file__).parent / "webhooks"
 OUTAGE_S = int(os.environ.get("TESTS_OUTAGE_S", "0"))
@@ -134,6 +134,27 @@ class Webhooks(Receivers):
         self.assertEqual(daemon.post("/v1/connections/none/replay", {"from": ids[0]}).status, 404)
         daemon.measure(part(7))
         receiver.wait(lambda: len(receiver.distinct()) == 8)
+
+    def test_a_replay_from_before_the_oldest_event_begins_with_that(self):
+        receiver, daemon = self.receiver(), self.daemon(*PRIVATE, "--event-retention", "100")
+        self.connect(daemon, receiver, events=["measurement.recorded", "note.added"])
+        row, = self.store(daemon, [1])
+        for number in range(1, 251):
+            self.assertEqual(daemon.post(f"/v1/measurements/{row}/notes", {"text": "seen"}).status, 201)
+            if number % 50 == 0:
+                receiver.wait(lambda: len(receiver.distinct()) == number + 1)
+        sent = receiver.distinct()
+
+        def replayed(place):
+            count = len(receiver.events)
+            self.assertEqual(daemon.post("/v1/connections/mes/replay", {"from": place}).status, 200)
+            receiver.wait(lambda: receiver.ids()[count:][-1:] == sent[-1:])
+            return receiver.ids()[count:]
+
+        kept = wait_for(lambda: len(again := replayed(sent[1])) <= 101 and again, "the purge")
+        self.assertEqual(kept[-100:], sent[-100:])
+        wait_for(lambda: "the next events were removed" in daemon.log, "the line of the log")
+        self.assertEqual([name for name in replayed("2000-01-01T00:00:00Z") if name == row], [row])
 
     def test_killed_and_started_again_nothing_is_lost(self):
         receiver, daemon = self.receiver(), self.daemon()
