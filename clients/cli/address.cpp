@@ -1,9 +1,5 @@
 #include "cli/address.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "base/text.hpp"
 
 namespace fitgauge::cli {

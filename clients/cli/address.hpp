@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <string_view>
-
 #include "cli/outcome.hpp"
 
 namespace fitgauge::cli {

@@ -4,12 +4,8 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
-#include <optional>
-#include <utility>
-#include <vector>
 
 #include "base/text.hpp"
 #include "cli/address.hpp"

@@ -1,11 +1,6 @@
 #include "cli/commands.hpp"
 
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
-
-#include <algorithm>
-#include <string>
-#include <utility>
 
 #include "cli/limits_commands.hpp"
 #include "cli/registration.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-
 #include "cli/context.hpp"
 
 namespace CLI {

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <chrono>
 #include <cstdio>
-#include <string_view>
 
 #include "cli/http_client.hpp"
 #include "cli/json_object.hpp"

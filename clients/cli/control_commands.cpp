@@ -1,9 +1,5 @@
 #include "cli/control_commands.hpp"
 
-#include <algorithm>
-#include <array>
-#include <thread>
-
 #include "base/clock.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "cli/context.hpp"
 
 namespace fitgauge::cli {

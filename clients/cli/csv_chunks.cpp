@@ -1,9 +1,5 @@
 #include "cli/csv_chunks.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 namespace fitgauge::cli {
 namespace {
 

@@ -1,9 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <string_view>
 
 #include "cli/outcome.hpp"
 #include "nc/program/control_disk.hpp"

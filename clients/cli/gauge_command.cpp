@@ -1,17 +1,11 @@
 #include "cli/gauge_command.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <termios.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <chrono>
-#include <optional>
 #include <regex>
-#include <system_error>
-#include <utility>
 
 #include "base/clock.hpp"
 #include "base/length.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <array>
-#include <string>
-#include <string_view>
-
 #include "cli/context.hpp"
 #include "cli/json_object.hpp"
 #include "record/measurement_row_reader.hpp"

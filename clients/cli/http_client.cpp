@@ -1,10 +1,6 @@
 #include "cli/http_client.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <random>
-#include <thread>
 
 #include "cli/address.hpp"
 #include "cli/problem.hpp"

@@ -1,7 +1,5 @@
 #include "cli/json_object.hpp"
 
-#include <limits>
-
 #include "base/json/json_writer.hpp"
 
 namespace fitgauge::cli {

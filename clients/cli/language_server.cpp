@@ -1,13 +1,7 @@
 #include "cli/nc_commands.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <iostream>
-#include <optional>
 #include <regex>
-#include <string>
-#include <vector>
 
 #include "base/number.hpp"
 #include "base/text.hpp"

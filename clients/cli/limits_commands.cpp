@@ -1,9 +1,5 @@
 #include "cli/limits_commands.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cstdlib>
-
 #include "base/length.hpp"
 #include "cli/address.hpp"
 #include "cli/local_files.hpp"

@@ -1,19 +1,14 @@
 #include "cli/local_files.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <atomic>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <iostream>
-#include <utility>
 
 namespace fitgauge::cli {
 namespace {

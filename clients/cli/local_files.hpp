@@ -1,12 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <cstdio>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 
 #include "cli/outcome.hpp"
 

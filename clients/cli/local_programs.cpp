@@ -1,9 +1,5 @@
 #include "cli/nc_commands.hpp"
 
-#include <algorithm>
-#include <map>
-#include <optional>
-
 #include "api/runs/run_codec.hpp"
 #include "base/number.hpp"
 #include "base/text.hpp"

@@ -1,8 +1,6 @@
 #include "cli/measure_command.hpp"
 
-#include <algorithm>
 #include <future>
-#include <memory>
 
 #include "base/number.hpp"
 #include "cli/http_client.hpp"

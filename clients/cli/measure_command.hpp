@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <vector>
-
 #include "cli/context.hpp"
 #include "cli/csv_chunks.hpp"
 #include "cli/measure_journal.hpp"

@@ -1,16 +1,11 @@
 #include "cli/measure_journal.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <utility>
-#include <vector>
 
 #include "base/digest.hpp"
 #include "base/number.hpp"

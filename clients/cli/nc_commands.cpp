@@ -1,7 +1,5 @@
 #include "cli/nc_commands.hpp"
 
-#include <algorithm>
-
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "cli/context.hpp"
 #include "cli/json_object.hpp"
 #include "nc/klartext/diagnostic.hpp"

@@ -1,13 +1,5 @@
 #include "cli/open_programs.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <deque>
-#include <memory>
-#include <set>
-#include <system_error>
-
 #include "base/allowance.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <utility>
-
 #include "base/result.hpp"
 
 namespace fitgauge::cli {

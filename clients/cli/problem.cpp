@@ -1,7 +1,5 @@
 #include "cli/problem.hpp"
 
-#include <fmt/format.h>
-
 #include "base/number.hpp"
 
 namespace fitgauge::cli {

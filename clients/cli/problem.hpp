@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "cli/http_client.hpp"
 #include "cli/json_object.hpp"
 

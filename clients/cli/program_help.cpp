@@ -1,11 +1,6 @@
 #include "cli/program_help.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <limits>
 #include <regex>
-#include <set>
 
 #include "base/text.hpp"
 #include "nc/iso/codes.hpp"

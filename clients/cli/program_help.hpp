@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "cli/open_programs.hpp"
 #include "nc/probing/cycle_descriptor.hpp"
 

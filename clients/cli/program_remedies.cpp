@@ -1,12 +1,5 @@
 #include "cli/program_remedies.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <optional>
-#include <set>
-#include <string_view>
-
 #include "base/text.hpp"
 #include "cli/program_help.hpp"
 #include "nc/klartext/parser_rules.hpp"

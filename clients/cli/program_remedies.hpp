@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "cli/open_programs.hpp"
 
 namespace fitgauge::cli {

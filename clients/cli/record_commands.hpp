@@ -1,13 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <initializer_list>
-#include <string>
-#include <string_view>
-#include <utility>
-
 #include "cli/context.hpp"
 #include "cli/json_object.hpp"
 #include "record/fields.hpp"

@@ -1,7 +1,5 @@
 #include "cli/registration.hpp"
 
-#include <fmt/format.h>
-
 #include "cli/record_commands.hpp"
 
 namespace fitgauge::cli {

@@ -1,11 +1,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cstddef>
-#include <memory>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "cli/commands.hpp"
 

@@ -1,10 +1,5 @@
 #include "cli/nc_commands.hpp"
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <map>
-
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"
 #include "cli/http_client.hpp"

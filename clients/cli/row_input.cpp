@@ -1,12 +1,5 @@
 #include "cli/row_input.hpp"
 
-#include <fmt/format.h>
-
-#include <limits>
-#include <utility>
-#include <variant>
-#include <vector>
-
 #include "base/length.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <span>
-
 #include "cli/measure_command.hpp"
 #include "cli/outcome.hpp"
 #include "formats/sheet/shop_csv.hpp"

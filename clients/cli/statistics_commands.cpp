@@ -1,8 +1,5 @@
 #include "cli/record_commands.hpp"
 
-#include <cstdlib>
-#include <vector>
-
 #include "base/text.hpp"
 #include "cli/json_object.hpp"
 #include "cli/local_files.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <array>
-#include <string>
-#include <string_view>
-
 #include "cli/context.hpp"
 
 namespace fitgauge::cli {

@@ -1,11 +1,8 @@
 #include "cli/terminal.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 
 #include "base/text.hpp"
 

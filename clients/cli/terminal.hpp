@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-
 namespace fitgauge::cli {
 
 enum class Colour { Green, Yellow, Red, Blue, Cyan };

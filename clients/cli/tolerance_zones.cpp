@@ -1,9 +1,5 @@
 #include "cli/tolerance_zones.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 namespace fitgauge::cli {
 namespace {
 

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <span>
-#include <string>
-
 #include "base/length.hpp"
 #include "cli/terminal.hpp"
 

@@ -1,7 +1,6 @@
 #include "cli/watch_command.hpp"
 
 #include <regex>
-#include <thread>
 
 #include "base/text.hpp"
 #include "cli/address.hpp"

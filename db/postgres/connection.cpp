@@ -1,10 +1,6 @@
 #include "db/postgres/connection.hpp"
 
-#include <fmt/format.h>
 #include <poll.h>
-
-#include <array>
-#include <stdexcept>
 
 #include "db/postgres/prepared.hpp"
 #include "db/store/stores.hpp"

@@ -2,16 +2,6 @@
 
 #include <postgresql/libpq-fe.h>
 
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <set>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "db/sql/connection.hpp"
 
 namespace fitgauge::store::postgres {

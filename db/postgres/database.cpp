@@ -1,12 +1,5 @@
 #include "db/store/database.hpp"
 
-#include <fmt/format.h>
-
-#include <atomic>
-#include <cstdint>
-#include <mutex>
-#include <optional>
-
 #include "db/postgres/connection.hpp"
 #include "db/postgres/listener.hpp"
 #include "db/postgres/session.hpp"

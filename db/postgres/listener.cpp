@@ -1,12 +1,6 @@
 #include "db/postgres/listener.hpp"
 
-#include <fmt/format.h>
 #include <poll.h>
-
-#include <algorithm>
-#include <array>
-#include <exception>
-#include <string_view>
 
 #include "db/sql/statement.hpp"
 #include "db/store/stores.hpp"

@@ -3,12 +3,6 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <chrono>
-#include <functional>
-#include <optional>
-#include <string>
-
 #include "base/thread.hpp"
 #include "db/postgres/connection.hpp"
 #include "db/store/database.hpp"

@@ -1,12 +1,5 @@
 #include "db/postgres/prepared.hpp"
 
-#include <fmt/format.h>
-
-#include <chrono>
-#include <map>
-#include <stdexcept>
-#include <type_traits>
-
 #include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store::postgres {

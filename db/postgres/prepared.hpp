@@ -1,14 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <set>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "db/postgres/connection.hpp"
 #include "db/sql/connection.hpp"
 #include "db/sql/statement.hpp"

@@ -1,10 +1,5 @@
 #include "db/postgres/session.hpp"
 
-#include <fmt/format.h>
-
-#include <stdexcept>
-#include <utility>
-
 namespace fitgauge::store::postgres {
 namespace {
 

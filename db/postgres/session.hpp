@@ -1,12 +1,5 @@
 #pragma once
 
-#include <atomic>
-#include <cstdint>
-#include <functional>
-#include <mutex>
-#include <string>
-#include <utility>
-
 #include "base/clock.hpp"
 #include "db/postgres/connection.hpp"
 #include "db/postgres/listener.hpp"

@@ -1,9 +1,5 @@
 #include "db/sql/index_nodes.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "db/sql/measurement_query.hpp"
 
 namespace fitgauge::store {

@@ -1,14 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "db/sql/statement.hpp"
 #include "db/store/measurement_index.hpp"
 #include "db/store/tuple_statistics.hpp"

@@ -1,12 +1,6 @@
 #include "db/store/keys_store.hpp"
 
-#include <fmt/format.h>
 #include <openssl/rand.h>
-
-#include <algorithm>
-#include <array>
-#include <limits>
-#include <stdexcept>
 
 #include "db/sql/sealed_table.hpp"
 #include "db/sql/statement.hpp"

@@ -1,11 +1,5 @@
 #include "db/store/log_store.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <limits>
-
 #include "db/sql/sealed_table.hpp"
 #include "db/sql/statement.hpp"
 #include "db/store/stores.hpp"

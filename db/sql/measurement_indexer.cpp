@@ -1,14 +1,5 @@
 #include "db/sql/measurement_indexer.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <optional>
-#include <set>
-#include <string_view>
-#include <vector>
-
 #include "db/sql/connection.hpp"
 #include "db/sql/measurement_query.hpp"
 #include "db/store/block_columns.hpp"

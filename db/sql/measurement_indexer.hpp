@@ -1,13 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <optional>
-#include <string>
-#include <tuple>
-#include <utility>
-
 #include "db/sql/index_nodes.hpp"
 #include "db/sql/statement.hpp"
 #include "db/store/measurement_index.hpp"

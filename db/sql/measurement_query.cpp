@@ -1,10 +1,5 @@
 #include "db/sql/measurement_query.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <optional>
-#include <utility>
-
 #include "db/sql/connection.hpp"
 #include "record/measurement.hpp"
 

@@ -1,15 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "db/sql/index_nodes.hpp"
 #include "db/sql/statement.hpp"
 #include "db/store/measurement_index.hpp"

@@ -1,10 +1,5 @@
 #include "db/sql/measurement_summary.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <utility>
-
 namespace fitgauge::store {
 namespace {
 

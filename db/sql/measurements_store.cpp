@@ -1,10 +1,5 @@
 #include "db/store/measurements_store.hpp"
 
-#include <fmt/format.h>
-
-#include <map>
-#include <stdexcept>
-
 #include "db/sql/connection.hpp"
 #include "db/sql/measurement_indexer.hpp"
 #include "db/sql/measurement_query.hpp"

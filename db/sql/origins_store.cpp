@@ -1,9 +1,5 @@
 #include "db/store/log_store.hpp"
 
-#include <fmt/format.h>
-
-#include <charconv>
-
 #include "db/sql/sealed_table.hpp"
 #include "db/sql/statement.hpp"
 

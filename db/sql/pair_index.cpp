@@ -1,9 +1,5 @@
 #include "db/sql/index_nodes.hpp"
 
-#include <array>
-#include <cstddef>
-#include <vector>
-
 #include "db/store/block_columns.hpp"
 #include "db/store/tuple_statistics.hpp"
 

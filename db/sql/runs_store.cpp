@@ -1,9 +1,5 @@
 #include "db/store/runs_store.hpp"
 
-#include <fmt/format.h>
-
-#include <limits>
-
 #include "base/text.hpp"
 #include "db/sql/connection.hpp"
 #include "db/sql/sealed_table.hpp"

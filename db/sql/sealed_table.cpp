@@ -1,11 +1,5 @@
 #include "db/sql/sealed_table.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <vector>
-
 #include "db/store/stores.hpp"
 
 namespace fitgauge::store::sql {

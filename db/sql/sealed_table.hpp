@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <string>
-#include <string_view>
-
 #include "base/result.hpp"
 #include "db/sql/connection.hpp"
 #include "db/sql/statement.hpp"

@@ -1,9 +1,5 @@
 #include "db/sql/session.hpp"
 
-#include <exception>
-#include <optional>
-#include <utility>
-
 namespace fitgauge::store {
 
 template <class Change>

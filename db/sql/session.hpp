@@ -1,11 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <string>
-#include <vector>
-
 #include "base/thread.hpp"
 #include "db/store/database.hpp"
 #include "db/store/jobs.hpp"

@@ -1,10 +1,5 @@
 #include "db/store/tables_store.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <charconv>
-
 #include "db/sql/sealed_table.hpp"
 #include "db/sql/statement.hpp"
 #include "db/store/canonical_digest.hpp"

@@ -1,11 +1,6 @@
 #include "db/sql/writer_engine.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <iterator>
 #include <sstream>
-#include <utility>
 
 #include "db/store/stores.hpp"
 

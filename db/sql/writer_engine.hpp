@@ -1,17 +1,5 @@
 #pragma once
 
-#include <chrono>
-#include <cstdint>
-#include <exception>
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <set>
-#include <string>
-#include <tuple>
-#include <vector>
-
 #include "base/clock.hpp"
 #include "base/thread.hpp"
 #include "db/sql/session.hpp"

@@ -1,10 +1,8 @@
 #include "db/sqlite/connection.hpp"
 
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 
 #include "base/text.hpp"

@@ -3,15 +3,7 @@
 #include <SQLiteCpp/Database.h>
 #include <sqlite3.h>
 
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
-#include <map>
-#include <memory>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
 
 #include "base/clock.hpp"
 #include "db/sql/connection.hpp"

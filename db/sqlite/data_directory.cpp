@@ -1,19 +1,12 @@
 #include "db/sqlite/data_directory.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <cstdint>
 #include <cstdio>
-#include <cstring>
-#include <optional>
-#include <stdexcept>
-#include <system_error>
 
 #include "db/sqlite/database_file.hpp"
 #include "db/store/stores.hpp"

@@ -4,10 +4,6 @@
 #include <sys/types.h>
 
 #include <filesystem>
-#include <mutex>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "base/folder.hpp"
 #include "base/result.hpp"

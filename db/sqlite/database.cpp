@@ -3,9 +3,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <functional>
-#include <optional>
-#include <utility>
 
 #include "db/sql/session.hpp"
 #include "db/sql/writer_engine.hpp"

@@ -1,10 +1,6 @@
 #include "db/sqlite/database_file.hpp"
 
 #include <SQLiteCpp/Backup.h>
-#include <fmt/format.h>
-
-#include <system_error>
-#include <utility>
 
 #include "db/sqlite/data_directory.hpp"
 #include "db/store/stores.hpp"

@@ -1,14 +1,6 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <optional>
-#include <set>
-#include <span>
-#include <stop_token>
-#include <string>
 
 #include "base/result.hpp"
 #include "db/sql/sealed_table.hpp"

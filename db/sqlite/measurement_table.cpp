@@ -1,11 +1,5 @@
 #include "db/sqlite/connection.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <bit>
-#include <stdexcept>
-
 #include "db/sql/statement.hpp"
 #include "db/store/measurement_row.hpp"
 

@@ -1,9 +1,6 @@
 #include "db/sqlite/upkeep.hpp"
 
-#include <fmt/format.h>
 #include <sqlite3.h>
-
-#include <exception>
 
 #include "db/sqlite/database_file.hpp"
 #include "db/store/stores.hpp"

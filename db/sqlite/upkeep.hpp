@@ -1,10 +1,5 @@
 #pragma once
 
-#include <chrono>
-#include <condition_variable>
-#include <cstdint>
-#include <mutex>
-
 #include "base/clock.hpp"
 #include "base/thread.hpp"
 #include "db/sql/session.hpp"

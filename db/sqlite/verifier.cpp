@@ -1,12 +1,5 @@
 #include "db/sqlite/database_file.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <iterator>
-#include <utility>
-#include <vector>
-
 #include "db/store/stores.hpp"
 
 namespace fitgauge::store {

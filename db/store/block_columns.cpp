@@ -1,8 +1,5 @@
 #include "db/store/block_columns.hpp"
 
-#include <algorithm>
-#include <bit>
-
 namespace fitgauge::store {
 namespace {
 

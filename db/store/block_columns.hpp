@@ -1,16 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <tuple>
-#include <utility>
-#include <vector>
-
 #include "db/store/measurement_index.hpp"
 #include "db/store/measurement_row.hpp"
 #include "db/store/measurement_statistics.hpp"

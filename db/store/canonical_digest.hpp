@@ -1,15 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <bit>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <optional>
-#include <string_view>
-#include <type_traits>
-#include <vector>
-
 #include "base/digest.hpp"
 
 namespace fitgauge::store {

@@ -1,11 +1,6 @@
 #pragma once
 
-#include <atomic>
-#include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
 
 #include "base/clock.hpp"
 #include "base/histogram.hpp"

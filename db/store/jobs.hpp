@@ -1,11 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <future>
-#include <memory>
-#include <optional>
-#include <type_traits>
-#include <utility>
 
 #include "base/allowance.hpp"
 #include "base/result.hpp"

@@ -1,10 +1,5 @@
 #include "db/store/measurement_index.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <bit>
-
 namespace fitgauge::store {
 
 std::string designation_key(std::int64_t nominal_nm, std::string_view tolerance_class) {

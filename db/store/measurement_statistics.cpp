@@ -1,7 +1,5 @@
 #include "db/store/measurement_statistics.hpp"
 
-#include <algorithm>
-#include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
 
 namespace fitgauge::store {

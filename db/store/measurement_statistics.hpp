@@ -1,14 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-
 namespace fitgauge::store {
 
 // Numbers are written seven bits a byte, the lowest first; the eighth bit is set if another byte

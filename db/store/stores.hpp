@@ -1,9 +1,5 @@
 #pragma once
 
-#include <chrono>
-#include <stdexcept>
-#include <utility>
-
 #include "base/clock.hpp"
 #include "base/result.hpp"
 #include "db/store/documents_store.hpp"

@@ -1,13 +1,5 @@
 #pragma once
 
-#include <compare>
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "base/digest.hpp"
 #include "base/result.hpp"
 

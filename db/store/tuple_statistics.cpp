@@ -1,9 +1,6 @@
 #include "db/store/tuple_statistics.hpp"
 
-#include <algorithm>
 #include <boost/unordered/unordered_flat_map.hpp>
-#include <numeric>
-#include <utility>
 
 namespace fitgauge::store {
 

@@ -58,12 +58,13 @@ if(FITGAUGE_FUZZ)
   target_compile_options(fitgauge_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# What nearly every file includes, compiled once for the libraries and once, with doctest, for the
-# tests. A file still includes what it uses: scripts/check builds nothing precompiled.
-set(precompiled_headers
-  <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <functional> <map> <memory> <mutex>
-  <optional> <set> <span> <string> <string_view> <utility> <variant> <vector>
-  <boost/system/result.hpp> <fmt/format.h>)
+# What every file may use of the standard library: included before each C++ file, compiled once for the libraries and
+# once, with doctest, for the tests.
+set(prelude "${CMAKE_SOURCE_DIR}/server/base/prelude.hpp")
+set(is_precompiled "$<OR:$<BOOL:$<TARGET_PROPERTY:PRECOMPILE_HEADERS>>,$<BOOL:$<TARGET_PROPERTY:PRECOMPILE_HEADERS_REUSE_FROM>>>")
+set(needs_prelude "$<OR:$<BOOL:$<TARGET_PROPERTY:DISABLE_PRECOMPILE_HEADERS>>,$<NOT:${is_precompiled}>>")
+target_compile_options(fitgauge_options INTERFACE
+  "$<$<AND:$<COMPILE_LANGUAGE:CXX>,${needs_prelude}>:SHELL:-include \"${prelude}\">")
 file(GENERATE OUTPUT "${CMAKE_BINARY_DIR}/precompiled.cpp" CONTENT "")
 
 # fitgauge_precompile(<target> HEADERS <headers> LINKS <targets>)
@@ -73,7 +74,7 @@ function(fitgauge_precompile target)
   target_link_libraries(${target} PRIVATE ${arg_LINKS} fitgauge_options)
   target_precompile_headers(${target} PRIVATE ${arg_HEADERS})
 endfunction()
-fitgauge_precompile(precompiled HEADERS ${precompiled_headers} LINKS Boost::headers fmt::fmt)
+fitgauge_precompile(precompiled HEADERS "${prelude}" LINKS Boost::headers fmt::fmt)
 
 # fitgauge_unity(<target> <folder> [SEPARATE <regex>])
 # Where CMAKE_UNITY_BUILD is on, the target's files compile in groups of about 2,500 lines: whole folders together, a

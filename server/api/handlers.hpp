@@ -1,8 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <utility>
-
 #include "api/services.hpp"
 #include "http/route.hpp"
 

@@ -1,8 +1,6 @@
 #include "api/resources.hpp"
 
 #include <sstream>
-#include <stdexcept>
-#include <utility>
 
 namespace fitgauge::api {
 

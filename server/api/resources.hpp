@@ -1,9 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "api/services.hpp"
 #include "api/wire/response_cache.hpp"
 #include "base/json/schema.hpp"

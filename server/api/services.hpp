@@ -1,9 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <string_view>
-
 #include "base/clock.hpp"
 #include "formats/certificate/certificate.hpp"
 #include "service/state/readiness.hpp"

@@ -2,10 +2,6 @@
 
 #include <malloc.h>
 
-#include <cstdlib>
-#include <new>
-#include <utility>
-
 namespace {
 
 constinit thread_local std::int64_t held = 0;

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <chrono>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <stop_token>
-
 namespace fitgauge {
 
 /// Bytes that the calling thread has allocated minus the bytes it has freed since it began. The

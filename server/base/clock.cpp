@@ -1,10 +1,6 @@
 #include "base/clock.hpp"
 
-#include <fmt/format.h>
 #include <time.h>
-
-#include <algorithm>
-#include <utility>
 
 namespace fitgauge {
 namespace {

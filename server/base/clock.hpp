@@ -1,16 +1,5 @@
 #pragma once
 
-#include <chrono>
-#include <compare>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <mutex>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "base/result.hpp"
 
 namespace fitgauge {

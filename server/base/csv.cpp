@@ -1,10 +1,5 @@
 #include "base/csv.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-
 #include "base/text.hpp"
 
 namespace fitgauge::sheet {

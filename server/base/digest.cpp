@@ -3,8 +3,6 @@
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
 
-#include <stdexcept>
-
 namespace fitgauge {
 namespace {
 

@@ -2,12 +2,9 @@
 
 #include <dirent.h>
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <stdio.h>
 
 #include <cerrno>
-#include <cstring>
-#include <memory>
 
 namespace fitgauge {
 namespace {

@@ -4,11 +4,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
 
 #include "base/result.hpp"
 

@@ -1,9 +1,5 @@
 #include "base/gzip.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <new>
-
 namespace fitgauge {
 namespace {
 

@@ -2,12 +2,6 @@
 
 #include <zlib.h>
 
-#include <cstddef>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-
 #include "base/result.hpp"
 
 namespace fitgauge {

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-
 namespace fitgauge {
 
 /// Counts observations by upper bound, for metrics. Thread-safe. An observation is two atomic

@@ -1,12 +1,5 @@
 #include "base/length.hpp"
 
-#include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
-
 namespace fitgauge {
 namespace {
 

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <compare>
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <string_view>
-
 #include "base/result.hpp"
 
 namespace fitgauge {

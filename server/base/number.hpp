@@ -1,11 +1,5 @@
 #pragma once
 
-#include <charconv>
-#include <optional>
-#include <string_view>
-#include <system_error>
-#include <type_traits>
-
 namespace fitgauge {
 
 /// Reads the whole text as a number, without blanks or a plus sign; none for other texts or out of

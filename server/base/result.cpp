@@ -1,8 +1,5 @@
 #include "base/result.hpp"
 
-#include <cstddef>
-#include <stdexcept>
-
 namespace fitgauge {
 namespace {
 

@@ -1,14 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <boost/system/result.hpp>
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 namespace fitgauge {
 
 /// Every expected failure of the service, from one table (error_codes.inc). The text id is part of

@@ -1,9 +1,5 @@
 #include "base/text.hpp"
 
-#include <algorithm>
-#include <array>
-#include <vector>
-
 namespace fitgauge {
 namespace {
 

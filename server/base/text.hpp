@@ -1,13 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <compare>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-
 namespace fitgauge {
 
 /// The word of a value of an enumeration that counts from 0.

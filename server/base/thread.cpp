@@ -2,9 +2,7 @@
 
 #include <pthread.h>
 
-#include <condition_variable>
 #include <cstdio>
-#include <string>
 
 namespace fitgauge {
 namespace {

@@ -1,16 +1,6 @@
 #pragma once
 
-#include <atomic>
-#include <chrono>
-#include <exception>
-#include <functional>
 #include <future>
-#include <memory>
-#include <mutex>
-#include <stop_token>
-#include <string_view>
-#include <thread>
-#include <utility>
 
 #include "base/result.hpp"
 

@@ -2,8 +2,6 @@
 
 #include <malloc.h>
 
-#include <string>
-
 namespace fitgauge {
 
 WorkerPool::WorkerPool(std::string_view place, unsigned threads, std::size_t queue)

@@ -1,21 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <condition_variable>
-#include <cstddef>
-#include <cstdint>
-#include <deque>
-#include <exception>
-#include <functional>
-#include <mutex>
-#include <optional>
-#include <stop_token>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "base/allowance.hpp"
 #include "base/result.hpp"
 #include "base/thread.hpp"

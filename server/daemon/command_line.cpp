@@ -1,15 +1,10 @@
 #include "daemon/commands.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <iostream>
-#include <map>
-#include <thread>
 
 #include "api/services.hpp"
 #include "base/result.hpp"

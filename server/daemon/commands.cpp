@@ -1,16 +1,11 @@
 #include "daemon/commands.hpp"
 
-#include <fmt/format.h>
 #include <openssl/bio.h>
 #include <openssl/ssl.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 
-#include <chrono>
 #include <iostream>
-#include <map>
-#include <memory>
-#include <system_error>
 
 #include "api/services.hpp"
 #include "base/folder.hpp"

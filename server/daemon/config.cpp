@@ -1,10 +1,7 @@
 #include "daemon/config.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
-
-#include <algorithm>
 
 #include "base/number.hpp"
 #include "base/regular_file.hpp"

@@ -1,12 +1,8 @@
 #include "daemon/connections.hpp"
 
-#include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include <algorithm>
-#include <chrono>
 #include <filesystem>
-#include <set>
 #include <sstream>
 
 #include "base/regular_file.hpp"

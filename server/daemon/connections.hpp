@@ -1,13 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "api/service/metrics.hpp"
 #include "base/clock.hpp"
 #include "daemon/config.hpp"

@@ -1,16 +1,10 @@
 #include "daemon/log.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <concepts>
-#include <cstring>
 #include <ctime>
-#include <iterator>
-#include <optional>
 
 #include "api/wire/request_facts.hpp"
 #include "base/json/json_writer.hpp"

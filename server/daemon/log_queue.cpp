@@ -1,16 +1,11 @@
 #include "daemon/log.hpp"
 
-#include <fmt/format.h>
 #include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <condition_variable>
 #include <csignal>
-#include <mutex>
-#include <string>
 
 namespace fitgauge::daemon {
 namespace {

@@ -1,6 +1,5 @@
 #include "daemon/preflight.hpp"
 
-#include <fmt/format.h>
 #include <time.h>
 
 #include <csignal>

@@ -1,19 +1,14 @@
 #include "daemon/preflight.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <malloc.h>
 #include <openssl/crypto.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
-#include <system_error>
 
 #include "base/regular_file.hpp"
 #include "base/text.hpp"

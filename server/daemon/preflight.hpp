@@ -2,12 +2,6 @@
 
 #include <signal.h>
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "api/services.hpp"
 #include "base/result.hpp"
 #include "daemon/config.hpp"

@@ -1,13 +1,9 @@
 #include "daemon/commands.hpp"
 
-#include <fmt/format.h>
 #include <pthread.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <chrono>
 #include <csignal>
-#include <thread>
 
 #include "api/resources.hpp"
 #include "api/runs/run_codec.hpp"

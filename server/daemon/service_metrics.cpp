@@ -4,12 +4,8 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <ctime>
-#include <iterator>
 #include <sstream>
-#include <string>
-#include <system_error>
 
 #include "base/regular_file.hpp"
 #include "daemon/log.hpp"

@@ -1,9 +1,5 @@
 #include "http/field_list.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-
 #include "base/text.hpp"
 
 namespace fitgauge::http {

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 namespace fitgauge::http {
 
 // Lists in header fields. Beast's token_list and ext_list accept only tokens, not a media range

@@ -1,11 +1,5 @@
 #include "http/request.hpp"
 
-#include <fmt/format.h>
-
-#include <cstddef>
-#include <stdexcept>
-#include <utility>
-
 #include "base/text.hpp"
 #include "http/engine/request_head.hpp"
 #include "http/field_list.hpp"

@@ -1,13 +1,6 @@
 #pragma once
 
 #include <any>
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <variant>
-#include <vector>
 
 #include "base/clock.hpp"
 #include "base/length.hpp"

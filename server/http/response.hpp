@@ -1,12 +1,5 @@
 #pragma once
 
-#include <chrono>
-#include <cstddef>
-#include <memory>
-#include <string>
-#include <variant>
-#include <vector>
-
 #include "base/result.hpp"
 
 namespace fitgauge::http {

@@ -1,14 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <limits>
-#include <memory>
-#include <string>
-#include <variant>
-#include <vector>
-
 #include "base/result.hpp"
 #include "http/request.hpp"
 #include "http/response.hpp"

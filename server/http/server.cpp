@@ -1,14 +1,8 @@
 #include "http/server.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <mutex>
 #include <random>
-#include <utility>
 
 #include "base/number.hpp"
 #include "http/engine/asio.hpp"

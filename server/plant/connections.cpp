@@ -1,9 +1,5 @@
 #include "plant/connections.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "base/json/field_reader.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/text.hpp"

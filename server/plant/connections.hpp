@@ -1,18 +1,5 @@
 #pragma once
 
-#include <condition_variable>
-#include <cstddef>
-#include <functional>
-#include <map>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <set>
-#include <stop_token>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "api/resources.hpp"
 #include "base/json/json_value.hpp"
 #include "base/json/schema.hpp"

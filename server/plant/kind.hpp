@@ -1,11 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <stop_token>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "api/statistics/next_offset.hpp"
 #include "plant/log_follower.hpp"
 #include "plant/plant.hpp"

@@ -1,10 +1,5 @@
 #include "plant/log_follower.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <iterator>
-
 #include "api/statistics/next_offset.hpp"
 #include "base/thread.hpp"
 

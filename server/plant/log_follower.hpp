@@ -1,17 +1,5 @@
 #pragma once
 
-#include <chrono>
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <memory>
-#include <optional>
-#include <set>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "base/json/body_forms.hpp"
 #include "base/thread.hpp"
 #include "plant/plant.hpp"

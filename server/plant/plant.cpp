@@ -1,7 +1,5 @@
 #include "plant/plant.hpp"
 
-#include <algorithm>
-
 namespace fitgauge::connections {
 
 void Worker::begin_attempt() {

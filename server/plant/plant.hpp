@@ -1,15 +1,6 @@
 #pragma once
 
-#include <array>
-#include <chrono>
-#include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <mutex>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "base/clock.hpp"
 

@@ -1,9 +1,5 @@
 #include "plant/log_follower.hpp"
 
-#include <fmt/format.h>
-
-#include <charconv>
-
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/thread.hpp"

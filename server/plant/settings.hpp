@@ -1,15 +1,6 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstdint>
 #include <filesystem>
-#include <set>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "base/json/body.hpp"
 #include "base/json/body_forms.hpp"

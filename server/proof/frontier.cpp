@@ -1,11 +1,5 @@
 #include "proof/frontier.hpp"
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <stdexcept>
-#include <utility>
-
 #include "base/number.hpp"
 
 namespace fitgauge::tlog {

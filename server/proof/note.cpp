@@ -1,10 +1,5 @@
 #include "proof/note.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <charconv>
-
 #include "base/digest.hpp"
 #include "base/text.hpp"
 

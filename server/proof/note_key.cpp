@@ -1,14 +1,7 @@
 #include "proof/note_key.hpp"
 
-#include <fmt/format.h>
 #include <openssl/evp.h>
 #include <openssl/rand.h>
-
-#include <algorithm>
-#include <charconv>
-#include <optional>
-#include <stdexcept>
-#include <vector>
 
 #include "base/digest.hpp"
 #include "base/text.hpp"

@@ -1,14 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string_view>
-#include <utility>
-
 #include "metrology/gauging/conformance.hpp"
 
 namespace fitgauge::app {

@@ -1,9 +1,5 @@
 #include "record/measurement.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "base/length.hpp"
 #include "base/number.hpp"
 #include "base/text.hpp"

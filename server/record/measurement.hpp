@@ -1,12 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <deque>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-
 #include "base/clock.hpp"
 #include "metrology/gauging/conformance.hpp"
 #include "metrology/gauging/gauge.hpp"

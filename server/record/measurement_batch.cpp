@@ -1,9 +1,5 @@
 #include "record/measurement_batch.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "base/csv.hpp"
 #include "base/json/json_value.hpp"
 #include "record/measurement_row_reader.hpp"

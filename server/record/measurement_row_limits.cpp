@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "record/measurement_row_reader.hpp"
 #include "record/verdict_codec.hpp"
 #include "tables/iso286/tolerance_class.hpp"

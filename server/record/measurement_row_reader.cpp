@@ -1,9 +1,5 @@
 #include "record/measurement_row_reader.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "base/length.hpp"
 #include "base/text.hpp"
 

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "base/json/field_reader.hpp"
 #include "record/fields.hpp"
 #include "record/measurement.hpp"

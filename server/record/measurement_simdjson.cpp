@@ -2,8 +2,6 @@
 
 #include <simdjson.h>
 
-#include <algorithm>
-
 namespace fitgauge::api {
 namespace {
 

@@ -1,12 +1,6 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <concepts>
-#include <cstddef>
-#include <string>
-#include <string_view>
-#include <type_traits>
 
 #include "base/json/body_forms.hpp"
 #include "record/measurement.hpp"

@@ -1,17 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <deque>
-#include <limits>
-#include <map>
-#include <mutex>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-
 namespace fitgauge::app {
 
 /// Length of an origin in hexadecimal digits, as ids end with it.

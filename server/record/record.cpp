@@ -1,9 +1,6 @@
 #include "record/record.hpp"
 
-#include <algorithm>
 #include <cassert>
-#include <cstdint>
-#include <tuple>
 
 #include "base/clock.hpp"
 #include "base/json/json_writer.hpp"

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <array>
-#include <charconv>
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "base/digest.hpp"
 #include "base/json/json_value.hpp"
 #include "base/json/text_arena.hpp"

@@ -1,14 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string_view>
-#include <tuple>
-#include <utility>
-
 #include "record/measurement.hpp"
 
 namespace fitgauge::app {

@@ -1,9 +1,5 @@
 #include "record/record.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "base/length.hpp"
 #include "record/verdict_codec.hpp"
 

@@ -1,9 +1,5 @@
 #include "record/verdict_codec.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
-
 #include "base/json/field_reader.hpp"
 
 namespace fitgauge::api {

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "base/json/json_writer.hpp"
 #include "base/result.hpp"
 #include "metrology/gauging/conformance.hpp"

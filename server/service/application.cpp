@@ -1,10 +1,5 @@
 #include "service/application.hpp"
 
-#include <fmt/format.h>
-
-#include <chrono>
-#include <thread>
-
 #include "db/sqlite/data_directory.hpp"
 #include "db/store/database.hpp"
 #include "proof/frontier.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-
 #include "base/worker_pool.hpp"
 
 namespace fitgauge::app {

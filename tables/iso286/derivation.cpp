@@ -1,8 +1,6 @@
 #include "tables/iso286/derivation.hpp"
 
-#include <algorithm>
 #include <cassert>
-#include <set>
 
 namespace fitgauge::iso286 {
 namespace {

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <map>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "tables/iso286/limit_deviations.hpp"
 #include "tables/iso286/table_data.hpp"
 #include "tables/iso286/tolerance_class.hpp"

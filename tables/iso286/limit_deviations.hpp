@@ -1,10 +1,5 @@
 #pragma once
 
-#include <compare>
-#include <cstdint>
-#include <optional>
-#include <string_view>
-
 #include "base/length.hpp"
 #include "tables/iso286/nominal_size.hpp"
 #include "tables/iso286/tolerance_class.hpp"

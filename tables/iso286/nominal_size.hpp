@@ -1,11 +1,5 @@
 #pragma once
 
-#include <compare>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "base/length.hpp"
 #include "base/result.hpp"
 

@@ -1,7 +1,5 @@
 #include "tables/iso286/table_data.hpp"
 
-#include <stdexcept>
-
 namespace fitgauge::iso286 {
 namespace {
 

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "base/result.hpp"
 #include "tables/iso286/limit_deviations.hpp"
 #include "tables/iso286/nominal_size.hpp"

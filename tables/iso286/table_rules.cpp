@@ -1,13 +1,5 @@
 #include "tables/iso286/table_data.hpp"
 
-#include <fmt/format.h>
-
-#include <map>
-#include <set>
-#include <string>
-#include <string_view>
-#include <tuple>
-
 #include "base/text.hpp"
 #include "tables/iso286/derivation.hpp"
 #include "tables/iso286/tolerance_class.hpp"

@@ -1,6 +1,5 @@
 #include "tables/iso286/tolerance_class.hpp"
 
-#include <algorithm>
 #include <cassert>
 
 #include "base/text.hpp"

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <compare>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "base/result.hpp"
 #include "tables/iso286/nominal_size.hpp"
 

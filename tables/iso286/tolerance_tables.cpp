@@ -1,9 +1,5 @@
 #include "tables/iso286/tolerance_tables.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "base/text.hpp"
 #include "tables/iso286/derivation.hpp"
 

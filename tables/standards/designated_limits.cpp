@@ -1,10 +1,5 @@
 #include "tables/standards/designated_limits.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-
 #include "base/text.hpp"
 
 namespace fitgauge::standards {

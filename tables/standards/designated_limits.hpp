@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "base/length.hpp"
 #include "base/result.hpp"
 #include "tables/iso286/limit_deviations.hpp"

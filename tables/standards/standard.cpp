@@ -1,12 +1,5 @@
 #include "tables/standards/standard.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <stdexcept>
-#include <utility>
-
 #include "base/digest.hpp"
 #include "base/number.hpp"
 

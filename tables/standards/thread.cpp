@@ -1,9 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <mutex>
-#include <set>
-
 #include "base/text.hpp"
 #include "tables/standards/designated_limits.hpp"
 #include "tables/standards/standard.hpp"

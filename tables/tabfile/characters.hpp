@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <string_view>
-
 namespace fitgauge::tabfile {
 
 /// Columns of a table file are counted in characters: code points of the UTF-8 text.

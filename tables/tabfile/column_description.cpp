@@ -1,7 +1,5 @@
 #include "tables/tabfile/tab_table.hpp"
 
-#include <fmt/format.h>
-
 #include "base/number.hpp"
 #include "base/text.hpp"
 

@@ -1,9 +1,5 @@
 #include "tables/tabfile/iso286_projection.hpp"
 
-#include <algorithm>
-#include <array>
-#include <span>
-
 #include "tables/iso286/limit_deviations.hpp"
 #include "tables/tabfile/characters.hpp"
 

@@ -1,11 +1,5 @@
 #include "tables/tabfile/tab_table.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <optional>
-#include <set>
-
 #include "base/text.hpp"
 #include "tables/tabfile/characters.hpp"
 

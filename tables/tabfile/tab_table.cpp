@@ -1,11 +1,6 @@
 #include "tables/tabfile/tab_table.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <tuple>
 
 #include "base/number.hpp"
 #include "base/text.hpp"

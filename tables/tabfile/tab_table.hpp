@@ -1,14 +1,5 @@
 #pragma once
 
-#include <compare>
-#include <cstddef>
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "base/allowance.hpp"
 #include "base/result.hpp"
 

@@ -1,12 +1,6 @@
 // Any bytes as JSON: what is refused says why, and what was read has no object with two members of
 // one name and is no deeper than the reader says.
 
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <set>
-#include <string>
-
 #include "base/json/json_value.hpp"
 
 using namespace fitgauge;

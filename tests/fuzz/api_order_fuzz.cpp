@@ -1,10 +1,6 @@
 // Any bytes as the order of a run, with its setup: what is refused says where, and an order that
 // was read can be sent again as it is kept.
 
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-
 #include "api/runs/run_codec.hpp"
 
 using namespace fitgauge;

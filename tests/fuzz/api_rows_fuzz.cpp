@@ -2,11 +2,6 @@
 // says where; what was read is judged as it would be again; and rows that are taken away as they
 // come are as many as those of the whole.
 
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <string>
-
 #include "http/request.hpp"
 #include "record/measurement_batch.hpp"
 #include "tables/iso286/table_data.hpp"

@@ -1,14 +1,6 @@
 // Bytes as a DFQ: read as fields and as measurements. What is read comes out of the writer, and
 // what the writer made is read with the same values and written with the same bytes.
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "formats/dfq/dfq_writer.hpp"
 #include "formats/dfq/measurement_csv.hpp"
 

@@ -2,17 +2,7 @@
 // Every answer is one, what a handler reads is there (AddressSanitizer looks), and the connection
 // ends or waits for more.
 
-#include <algorithm>
 #include <cctype>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <cstring>
-#include <memory>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "http/engine/connection.hpp"
 #include "http/engine/io_thread.hpp"

@@ -1,11 +1,6 @@
 // The first half of the bytes says what to read, the second half is read: the lexer never leaves
 // its block, and after a failure it stands at the end.
 
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <string>
-
 #include "nc/klartext/lexer.hpp"
 
 using namespace fitgauge::klartext;

@@ -1,10 +1,5 @@
 // Any bytes as a mask of FN 16: every finding has its place.
 
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <string>
-
 #include "nc/klartext/mask_file.hpp"
 
 using namespace fitgauge::klartext;

@@ -1,11 +1,6 @@
 // Any bytes as a program of either dialect: every finding has its place, and a program without
 // errors, printed as Klartext and as DIN/ISO, reads back as the same.
 
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <string>
-
 #include "nc/iso/parser.hpp"
 #include "nc/iso/printer.hpp"
 #include "nc/klartext/printer.hpp"

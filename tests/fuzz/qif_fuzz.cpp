@@ -1,16 +1,6 @@
 // Bytes as a QIF document: read as measurements, in one piece and byte by byte with the same rows.
 // What the writer makes of as many values is read with these values.
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "../support/qif_text.hpp"
 
 using namespace fitgauge;

@@ -1,13 +1,9 @@
 // Replays the files of a folder through a fuzz target's entry function, in builds without
 // libFuzzer.
 
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
-#include <string>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

@@ -1,12 +1,7 @@
 // Any first line as a setup (JSON), the rest as a program that is run on it with tight limits: the
 // run ends, and all that it answers is JSON.
 
-#include <chrono>
-#include <cstddef>
-#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
-#include <string>
 
 #include "api/runs/run_codec.hpp"
 #include "api/runs/setup_codec.hpp"

@@ -1,10 +1,5 @@
 // Bytes as a STEP file: read as a drawing, and what was read made a plan that is JSON again.
 
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <string_view>
-
 #include "formats/step/plan.hpp"
 
 using namespace fitgauge;

@@ -1,11 +1,6 @@
 // Any bytes as a table file: what is refused names its line, and a table that was read is the same
 // after it was written and read again.
 
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <string_view>
-
 #include "tables/tabfile/tab_table.hpp"
 
 using namespace fitgauge;

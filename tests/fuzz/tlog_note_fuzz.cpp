@@ -1,11 +1,6 @@
 // Bytes as a signed checkpoint, as keys and as the path of a tile: what is accepted prints as it
 // was read.
 
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <string_view>
-
 #include "../support/tile_path.hpp"
 #include "proof/note.hpp"
 

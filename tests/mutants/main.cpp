@@ -1,13 +1,4 @@
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <algorithm>
-#include <array>
-#include <cstdlib>
-#include <map>
-#include <optional>
-#include <set>
-#include <stdexcept>
 
 #include "support/deep.hpp"
 #include "trial.hpp"

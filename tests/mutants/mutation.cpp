@@ -1,12 +1,6 @@
 #include "mutation.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
 #include <cctype>
-#include <map>
-#include <optional>
 #include <regex>
 
 #include "base/text.hpp"

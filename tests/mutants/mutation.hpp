@@ -1,12 +1,6 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <random>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace fitgauge::mutants {
 

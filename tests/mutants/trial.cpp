@@ -1,12 +1,5 @@
 #include "trial.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdlib>
-
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/program/parameter.hpp"
 #include "nc/run/call_stack.hpp"

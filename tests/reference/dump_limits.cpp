@@ -3,7 +3,6 @@
 // `t6 10000000 -` where the class is not defined.
 
 #include <cstdio>
-#include <set>
 
 #include "tables/iso286/tolerance_tables.hpp"
 

@@ -4,8 +4,6 @@
 #include <sys/eventfd.h>
 
 #include <cerrno>
-#include <deque>
-#include <utility>
 
 #include "network.hpp"
 #include "world.hpp"

@@ -8,7 +8,6 @@
 
 #include <cerrno>
 #include <cstdarg>
-#include <string_view>
 
 #include "world.hpp"
 

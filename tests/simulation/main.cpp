@@ -1,19 +1,11 @@
-#include <fmt/format.h>
 #include <sqlite3.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
-#include <deque>
 #include <filesystem>
-#include <new>
-#include <string_view>
-#include <thread>
-#include <utility>
 
 #include "plant.hpp"
 #include "support/deep.hpp"

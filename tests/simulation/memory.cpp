@@ -1,13 +1,5 @@
 #include <sqlite3.h>
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cstddef>
-#include <cstdlib>
-#include <cstring>
-#include <utility>
-
 #include "world.hpp"
 
 // The memory of SQLite, which asks for most of it: free blocks by their size. All threads of the

@@ -3,8 +3,6 @@
 #include <curl/curl.h>
 
 #include <cstdarg>
-#include <cstring>
-#include <utility>
 
 #include "world.hpp"
 

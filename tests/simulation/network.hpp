@@ -1,12 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace fitgauge::simulation {
 
 /// A request as libcurl would have sent it.

@@ -1,9 +1,5 @@
 #include "node.hpp"
 
-#include <fmt/format.h>
-
-#include <charconv>
-
 #include "api/runs/run_codec.hpp"
 #include "api/wire/problem.hpp"
 #include "base/gzip.hpp"

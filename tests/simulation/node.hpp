@@ -1,12 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <map>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "network.hpp"
 #include "plant/centre/forwarder.hpp"

@@ -1,15 +1,9 @@
-// A jump to another stack is no error here.
-#undef _FORTIFY_SOURCE
-
 #include "place.hpp"
 
 #include <link.h>
 #include <sys/mman.h>
 
 #include <cerrno>
-#include <cstdlib>
-#include <cstring>
-#include <string_view>
 
 namespace fitgauge::simulation {
 namespace {

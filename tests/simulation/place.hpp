@@ -3,8 +3,6 @@
 #include <setjmp.h>
 #include <ucontext.h>
 
-#include <vector>
-
 namespace fitgauge::simulation {
 
 /// Where a thread of the world is while another runs. All are of one thread of the kernel, which

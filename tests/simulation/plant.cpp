@@ -1,11 +1,5 @@
 #include "plant.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <iterator>
-#include <utility>
-
 #include "base/json/json_value.hpp"
 
 namespace fitgauge::simulation {

@@ -6,16 +6,11 @@
 #include <time.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <climits>
 #include <cstdarg>
 #include <cstdio>
-#include <cstdlib>
-#include <limits>
 #include <random>
-#include <utility>
-#include <vector>
 
 #include "place.hpp"
 #include "world.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <string>
-
 // The world that a simulation runs in: one thread at a time, chosen by the seed; a time that moves
 // when every thread waits; disks that fill up and machines that die at a counted write. The product
 // is linked as it is: the calls of the C library that it makes are answered in threads.cpp and

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <chrono>
-#include <thread>
-
 namespace fitgauge {
 
 /// Whether `condition` comes true within what a slow and busy machine may take.

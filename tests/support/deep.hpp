@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdlib>
-
 namespace fitgauge {
 
 /// How many random cases a test draws: `deep` where TESTS_DEEP is set (scripts/test --deep).

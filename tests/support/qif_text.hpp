@@ -1,9 +1,5 @@
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "formats/qif/qif.hpp"
 
 namespace fitgauge::qif {

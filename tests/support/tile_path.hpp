@@ -1,9 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <string>
-
 #include "proof/frontier.hpp"
 
 namespace fitgauge::tlog {

@@ -1,12 +1,6 @@
 #include "api/certificates/certificate_draft.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <sstream>
-#include <utility>
 
 #include "api/measurements/measurement_codec.hpp"
 #include "api/services.hpp"

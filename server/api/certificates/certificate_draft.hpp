@@ -1,12 +1,5 @@
 #pragma once
 
-#include <compare>
-#include <map>
-#include <optional>
-#include <set>
-#include <string>
-#include <vector>
-
 #include "api/plans/characteristic_key.hpp"
 #include "api/resources.hpp"
 #include "formats/certificate/certificate.hpp"

@@ -1,9 +1,5 @@
 #include "api/resources.hpp"
 
-#include <fmt/format.h>
-
-#include <memory>
-
 #include "api/certificates/certificate_draft.hpp"
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_listing.hpp"

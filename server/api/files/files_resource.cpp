@@ -1,7 +1,5 @@
 #include "api/resources.hpp"
 
-#include <algorithm>
-
 #include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/wire/request_facts.hpp"

@@ -1,7 +1,5 @@
 #include "api/limits/fit_of_values.hpp"
 
-#include <fmt/format.h>
-
 #include "api/measurements/measurement_listing.hpp"
 #include "api/statistics/value_selection.hpp"
 #include "metrology/statistics/fit_analysis.hpp"

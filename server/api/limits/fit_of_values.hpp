@@ -1,9 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "api/services.hpp"
 #include "base/json/json_writer.hpp"
 #include "http/request.hpp"

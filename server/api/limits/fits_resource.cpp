@@ -1,9 +1,5 @@
 #include "api/resources.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "api/handlers.hpp"
 #include "api/limits/fit_of_values.hpp"
 #include "api/limits/limits_codec.hpp"

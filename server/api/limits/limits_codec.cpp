@@ -1,7 +1,5 @@
 #include "api/limits/limits_codec.hpp"
 
-#include <algorithm>
-
 #include "api/limits/fit_of_values.hpp"
 #include "api/resources.hpp"
 #include "api/services.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 #include "base/json/json_writer.hpp"
 #include "http/response.hpp"
 #include "service/measurements/measurement_service.hpp"

@@ -1,7 +1,5 @@
 #include "api/resources.hpp"
 
-#include <fmt/format.h>
-
 #include "api/limits/limits_codec.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/text.hpp"

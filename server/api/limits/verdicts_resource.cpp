@@ -1,11 +1,5 @@
 #include "api/resources.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <functional>
-#include <initializer_list>
-
 #include "api/handlers.hpp"
 #include "api/limits/limits_codec.hpp"
 #include "record/verdict_codec.hpp"

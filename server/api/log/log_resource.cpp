@@ -1,5 +1,3 @@
-#include <iterator>
-
 #include "api/handlers.hpp"
 #include "api/resources.hpp"
 #include "base/digest.hpp"

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "api/handlers.hpp"
 #include "api/resources.hpp"
 #include "api/wire/problem.hpp"

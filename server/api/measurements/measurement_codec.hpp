@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <string>
-
 #include "base/json/json_writer.hpp"
 #include "record/measurement.hpp"
 #include "service/measurements/measurement_service.hpp"

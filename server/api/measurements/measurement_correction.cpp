@@ -1,11 +1,5 @@
 #include "api/measurements/measurement_posting.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <memory>
-
 #include "api/wire/request_facts.hpp"
 #include "base/length.hpp"
 #include "record/measurement_row_reader.hpp"

@@ -1,7 +1,5 @@
 #include "api/measurements/measurement_listing.hpp"
 
-#include <fmt/format.h>
-
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_file.hpp"
 #include "base/thread.hpp"

@@ -1,10 +1,5 @@
 #include "api/measurements/measurement_file.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "base/length.hpp"
 #include "formats/xlsx/workbook.hpp"
 #include "record/record_members.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <string>
-
 #include "base/result.hpp"
 #include "formats/dfq/dfq_writer.hpp"
 #include "formats/qif/qif.hpp"

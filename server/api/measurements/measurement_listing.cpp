@@ -1,12 +1,6 @@
 #include "api/measurements/measurement_listing.hpp"
 #include "api/handlers.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <memory>
-
 #include "api/limits/limits_codec.hpp"
 #include "api/measurements/measurement_codec.hpp"
 #include "api/wire/request_facts.hpp"

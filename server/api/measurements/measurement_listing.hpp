@@ -1,8 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "api/services.hpp"
 #include "http/route.hpp"
 #include "service/measurements/measurement_service.hpp"

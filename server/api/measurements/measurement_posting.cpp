@@ -1,9 +1,5 @@
 #include "api/measurements/measurement_posting.hpp"
 
-#include <fmt/format.h>
-
-#include <utility>
-
 #include "api/measurements/measurement_codec.hpp"
 #include "service/jobs.hpp"
 #include "service/measurements/gauges_in_use.hpp"

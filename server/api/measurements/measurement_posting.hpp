@@ -1,13 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "api/services.hpp"
 #include "api/wire/request_facts.hpp"
 #include "http/route.hpp"

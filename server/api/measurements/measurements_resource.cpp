@@ -1,7 +1,5 @@
 #include "api/resources.hpp"
 
-#include <memory>
-
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_codec.hpp"
 #include "api/measurements/measurement_listing.hpp"

@@ -1,9 +1,5 @@
 #include "api/measurements/measurement_codec.hpp"
 
-#include <fmt/format.h>
-
-#include <set>
-
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_posting.hpp"
 #include "api/resources.hpp"

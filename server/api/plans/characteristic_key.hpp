@@ -1,12 +1,5 @@
 #pragma once
 
-#include <compare>
-#include <map>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "record/measurement.hpp"
 
 namespace fitgauge::api {

@@ -1,8 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <memory>
-
 #include "api/handlers.hpp"
 #include "api/plans/characteristic_key.hpp"
 #include "api/resources.hpp"

@@ -1,10 +1,5 @@
 #include "api/plans/plan_codec.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <set>
-
 #include "api/resources.hpp"
 #include "base/json/field_reader.hpp"
 #include "base/json/json_writer.hpp"

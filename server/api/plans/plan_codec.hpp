@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <string_view>
-
 #include "base/json/json_value.hpp"
 #include "record/measurement_batch.hpp"
 

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/json/schema.hpp"

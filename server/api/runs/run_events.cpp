@@ -1,8 +1,5 @@
 #include "api/runs/run_posting.hpp"
 
-#include <charconv>
-#include <mutex>
-
 #include "api/wire/event_text.hpp"
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"

@@ -1,12 +1,5 @@
 #include "api/runs/run_codec.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <charconv>
-#include <chrono>
-
 #include "api/runs/setup_codec.hpp"
 
 namespace fitgauge::api {

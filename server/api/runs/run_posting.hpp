@@ -1,10 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "api/services.hpp"
 #include "base/result.hpp"
 #include "http/request.hpp"

@@ -1,9 +1,5 @@
 #include "api/runs/setup_codec.hpp"
 
-#include <fmt/format.h>
-
-#include <map>
-
 #include "base/json/schema.hpp"
 #include "base/number.hpp"
 #include "nc/program/cycles.hpp"

@@ -1,7 +1,5 @@
 #include "api/runs/setup_codec.hpp"
 
-#include <fmt/format.h>
-
 #include "api/resources.hpp"
 #include "api/runs/setup_machine.hpp"
 #include "api/service/document_routes.hpp"

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <array>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "base/json/body_forms.hpp"
 #include "base/json/field_reader.hpp"
 #include "base/json/schema.hpp"

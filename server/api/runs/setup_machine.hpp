@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tuple>
-
 #include "api/runs/setup_codec.hpp"
 
 // The members of a setup's machine.

@@ -1,12 +1,5 @@
 #include "api/runs/run_codec.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <iterator>
-#include <span>
-#include <utility>
-
 #include "base/csv.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/text.hpp"

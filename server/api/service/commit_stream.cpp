@@ -1,7 +1,5 @@
 #include "api/service/commit_stream.hpp"
 
-#include <utility>
-
 namespace fitgauge::api {
 
 void CommitStream::next(http::ChunkSink sink) {

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <string>
-
 #include "http/response.hpp"
 #include "service/events/event_service.hpp"
 

@@ -1,7 +1,5 @@
 #include "api/resources.hpp"
 
-#include <cmath>
-
 #include "base/json/body_forms.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/program/machining_cycles.hpp"

@@ -1,9 +1,5 @@
 #include "api/service/document_routes.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "api/handlers.hpp"
 #include "api/resources.hpp"
 #include "api/statistics/computation.hpp"

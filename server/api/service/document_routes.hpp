@@ -1,10 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "api/resources.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/json/schema.hpp"

@@ -1,8 +1,3 @@
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-
 #include "api/resources.hpp"
 #include "api/service/commit_stream.hpp"
 #include "api/wire/event_text.hpp"

@@ -1,7 +1,5 @@
 #include "api/service/guard.hpp"
 
-#include <fmt/format.h>
-
 #include "api/wire/response_cache.hpp"
 #include "base/text.hpp"
 

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <atomic>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string_view>
-#include <utility>
-
 #include "api/wire/request_facts.hpp"
 #include "http/server.hpp"
 #include "service/documents/key_service.hpp"

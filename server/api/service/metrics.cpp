@@ -1,11 +1,5 @@
 #include "api/service/metrics.hpp"
 
-#include <charconv>
-#include <cmath>
-#include <iterator>
-#include <map>
-#include <tuple>
-
 #include "api/services.hpp"
 #include "api/wire/problem.hpp"
 

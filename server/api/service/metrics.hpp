@@ -1,17 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <functional>
-#include <initializer_list>
-#include <limits>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-
 #include "base/histogram.hpp"
 #include "base/result.hpp"
 #include "http/server.hpp"

@@ -1,13 +1,5 @@
 #include "api/resources.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <map>
-#include <set>
-#include <utility>
-
 #include "api/runs/setup_codec.hpp"
 #include "api/services.hpp"
 #include "base/json/json_writer.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <string_view>
-
 namespace fitgauge::api {
 
 /// One file of the page (clients/web), compiled in.

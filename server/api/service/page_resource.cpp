@@ -1,10 +1,5 @@
 #include "api/resources.hpp"
 
-#include <functional>
-#include <map>
-#include <memory>
-#include <string>
-
 #include "api/service/page_assets.hpp"
 
 namespace fitgauge::api {

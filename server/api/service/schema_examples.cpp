@@ -1,9 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <map>
-
 #include "api/resources.hpp"
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"

@@ -1,8 +1,5 @@
 #include "metrology/statistics/attribute_study.hpp"
 
-#include <set>
-#include <tuple>
-
 #include "api/statistics/study_rows.hpp"
 #include "api/wire/formulas.hpp"
 

@@ -1,9 +1,5 @@
 #include "api/resources.hpp"
 
-#include <algorithm>
-#include <array>
-#include <utility>
-
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_listing.hpp"
 #include "api/service/commit_stream.hpp"

@@ -1,7 +1,5 @@
 #include "api/statistics/computation.hpp"
 
-#include <fmt/format.h>
-
 #include "api/handlers.hpp"
 #include "base/text.hpp"
 #include "service/jobs.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <string>
-#include <string_view>
-
 #include "api/resources.hpp"
 #include "base/json/body_forms.hpp"
 #include "base/json/json_value.hpp"

@@ -1,10 +1,5 @@
 #include "api/resources.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <map>
-
 #include "api/handlers.hpp"
 #include "api/service/document_routes.hpp"
 #include "api/statistics/statistics_answers.hpp"

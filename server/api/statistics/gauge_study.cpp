@@ -1,12 +1,5 @@
 #include "api/statistics/statistics_answers.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <cmath>
-#include <set>
-#include <tuple>
-
 #include "api/statistics/measuring_process.hpp"
 #include "api/statistics/study_rows.hpp"
 #include "metrology/statistics/gauge_study.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "api/wire/formulas.hpp"
 #include "base/json/body_forms.hpp"
 #include "metrology/statistics/measuring_process.hpp"

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "service/measurements/gauges_in_use.hpp"
 #include "service/measurements/measurement_service.hpp"
 

@@ -1,9 +1,5 @@
 #include "api/statistics/statistics_answers.hpp"
 
-#include <algorithm>
-#include <array>
-#include <charconv>
-
 #include "base/length.hpp"
 
 namespace fitgauge::api {

@@ -1,13 +1,5 @@
 #pragma once
 
-#include <cmath>
-#include <functional>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "api/statistics/computation.hpp"
 #include "api/statistics/value_selection.hpp"
 #include "api/wire/formulas.hpp"

@@ -1,10 +1,5 @@
 #include "api/resources.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <cmath>
-
 #include "api/statistics/computation.hpp"
 #include "api/statistics/measuring_process.hpp"
 #include "api/statistics/statistics_answers.hpp"

@@ -1,7 +1,5 @@
 #include "api/resources.hpp"
 
-#include <functional>
-
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_listing.hpp"
 #include "api/statistics/statistics_answers.hpp"

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <map>
-#include <string>
-#include <vector>
-
 #include "api/statistics/computation.hpp"
 
 namespace fitgauge::api {

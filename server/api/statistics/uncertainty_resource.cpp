@@ -1,8 +1,5 @@
 #include "api/statistics/uncertainty_resource.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "api/resources.hpp"
 #include "api/statistics/computation.hpp"
 #include "api/wire/formulas.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "base/json/json_value.hpp"
 
 namespace fitgauge::api {

@@ -1,10 +1,5 @@
 #include "api/statistics/value_selection.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <limits>
-
 #include "base/allowance.hpp"
 
 namespace fitgauge::api {

@@ -1,10 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "api/handlers.hpp"
 #include "api/limits/limits_codec.hpp"
 #include "api/resources.hpp"

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "http/request.hpp"
 #include "http/response.hpp"
 #include "http/route.hpp"

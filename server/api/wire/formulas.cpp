@@ -1,10 +1,5 @@
 #include "api/wire/formulas.hpp"
 
-#include <algorithm>
-#include <array>
-#include <stdexcept>
-#include <string>
-
 #include "api/resources.hpp"
 
 namespace fitgauge::api {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "base/result.hpp"
 #include "http/request.hpp"
 #include "http/response.hpp"

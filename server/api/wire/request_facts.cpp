@@ -1,10 +1,5 @@
 #include "api/wire/request_facts.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <utility>
-
 #include "base/digest.hpp"
 #include "base/text.hpp"
 #include "http/field_list.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <string>
 #include <unordered_map>
 
 #include "http/route.hpp"

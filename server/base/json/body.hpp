@@ -1,11 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <string_view>
-#include <type_traits>
-#include <utility>
-
 #include "base/json/field_reader.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/json/schema.hpp"

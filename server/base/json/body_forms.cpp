@@ -1,10 +1,5 @@
 #include "base/json/body_forms.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 namespace fitgauge::api {
 
 bool Text::read(FieldReader& fields, std::string_view name, std::string& to) const {

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <array>
 #include <concepts>
-#include <cstdint>
-#include <limits>
-#include <span>
 
 #include "base/clock.hpp"
 #include "base/json/body.hpp"

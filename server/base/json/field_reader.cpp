@@ -1,10 +1,5 @@
 #include "base/json/field_reader.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "base/number.hpp"
 
 namespace fitgauge::api {

@@ -1,11 +1,8 @@
 #include "base/json/json_value.hpp"
 
-#include <fmt/format.h>
 #include <simdjson.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "base/text.hpp"
 

@@ -1,11 +1,5 @@
 #include "base/json/json_writer.hpp"
 
-#include <fmt/format.h>
-
-#include <charconv>
-#include <cmath>
-#include <iterator>
-
 namespace fitgauge {
 
 char* write_escape(char* to, char c) {

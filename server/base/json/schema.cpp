@@ -1,7 +1,5 @@
 #include "base/json/schema.hpp"
 
-#include <fmt/format.h>
-
 #include "base/json/json_writer.hpp"
 
 namespace fitgauge::api::schema {

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 namespace fitgauge::api {
 
 /// A component of /openapi.json: an object or a union that routes and other schemas name.

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <algorithm>
 #include <memory_resource>
-#include <string_view>
 
 namespace fitgauge::api {
 

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "formats/certificate/tagged_pdf.hpp"
 
 namespace fitgauge::certificate {

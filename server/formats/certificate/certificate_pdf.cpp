@@ -1,11 +1,4 @@
-#include <fmt/format.h>
 #include <qrencode.h>
-
-#include <algorithm>
-#include <array>
-#include <memory>
-#include <stdexcept>
-#include <string_view>
 
 #include "base/text.hpp"
 #include "formats/certificate/certificate.hpp"

@@ -1,9 +1,5 @@
 #include "formats/certificate/embedded_font.hpp"
 
-#include <algorithm>
-#include <set>
-#include <stdexcept>
-
 extern "C" {
 extern const char fitgauge_font_begin[];  // font.S
 extern const char fitgauge_font_end[];

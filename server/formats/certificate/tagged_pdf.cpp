@@ -1,12 +1,6 @@
 #include "formats/certificate/tagged_pdf.hpp"
 
-#include <fmt/format.h>
 #include <zlib.h>
-
-#include <algorithm>
-#include <iterator>
-#include <new>
-#include <utility>
 
 #include "base/regular_file.hpp"
 

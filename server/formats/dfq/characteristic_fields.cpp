@@ -1,11 +1,6 @@
 // Fields that all values of a characteristic share: its name, size, limits and user field, and its
 // missing fields.
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-
 #include "base/text.hpp"
 #include "formats/dfq/measurement_csv.hpp"
 #include "formats/sheet/record_reader.hpp"

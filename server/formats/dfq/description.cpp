@@ -1,9 +1,5 @@
 #include "formats/dfq/description.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "base/number.hpp"
 #include "base/text.hpp"
 

@@ -1,9 +1,5 @@
 #include "formats/dfq/dfq_writer.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "base/text.hpp"
 
 namespace fitgauge::aqdef {

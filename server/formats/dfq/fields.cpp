@@ -1,11 +1,5 @@
 #include "formats/dfq/fields.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <optional>
-
 #include "formats/dfq/lines.hpp"
 
 namespace fitgauge::aqdef {

@@ -1,11 +1,5 @@
 #include "formats/dfq/description.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <utility>
-
 #include "base/length.hpp"
 #include "base/text.hpp"
 

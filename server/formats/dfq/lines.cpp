@@ -1,13 +1,5 @@
 #include "formats/dfq/lines.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <charconv>
-#include <cstring>
-
 #include "base/text.hpp"
 
 #if defined(__SSE2__)

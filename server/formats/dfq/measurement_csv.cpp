@@ -1,10 +1,5 @@
 #include "formats/dfq/measurement_csv.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-
 #include "base/clock.hpp"
 #include "base/csv.hpp"
 #include "base/number.hpp"

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <string_view>
-#include <vector>
-
 #include "base/result.hpp"
 #include "formats/dfq/description.hpp"
 #include "formats/dfq/lines.hpp"

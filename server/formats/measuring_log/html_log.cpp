@@ -1,10 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <optional>
-#include <utility>
-
 #include "base/text.hpp"
 #include "formats/measuring_log/measuring_log.hpp"
 

@@ -1,9 +1,5 @@
 #include "formats/measuring_log/measuring_log.hpp"
 
-#include <algorithm>
-#include <array>
-#include <charconv>
-
 #include "base/text.hpp"
 
 namespace fitgauge::log_reader {

@@ -1,11 +1,6 @@
 #include "formats/measuring_log/pattern.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <algorithm>
-#include <array>
-#include <utility>
 
 #include "base/text.hpp"
 #include "formats/sheet/text_encoding.hpp"

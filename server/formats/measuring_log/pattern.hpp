@@ -1,12 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <map>
-#include <string>
-#include <string_view>
-#include <variant>
-#include <vector>
-
 #include "base/result.hpp"
 #include "formats/measuring_log/measuring_log.hpp"
 

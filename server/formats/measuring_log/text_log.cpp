@@ -1,9 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <utility>
-
 #include "base/text.hpp"
 #include "formats/measuring_log/measuring_log.hpp"
 #include "formats/sheet/text_encoding.hpp"

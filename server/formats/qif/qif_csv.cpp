@@ -1,9 +1,5 @@
 #include "formats/qif/qif.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "base/csv.hpp"
 #include "base/text.hpp"
 #include "formats/qif/qif_definitions.hpp"

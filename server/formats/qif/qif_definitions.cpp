@@ -1,9 +1,5 @@
 #include "formats/qif/qif_definitions.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "base/length.hpp"
 #include "formats/qif/xml_reader.hpp"
 

@@ -1,13 +1,5 @@
 #pragma once
 
-#include <array>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "base/result.hpp"
 #include "formats/dfq/description.hpp"
 #include "formats/dfq/lines.hpp"

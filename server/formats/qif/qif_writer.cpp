@@ -1,10 +1,5 @@
 #include "formats/qif/qif.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <iterator>
-
 #include "base/text.hpp"
 #include "formats/dfq/lines.hpp"
 

@@ -1,13 +1,9 @@
 #include "formats/qif/xml_reader.hpp"
 
 #include <expat.h>
-#include <fmt/format.h>
 #include <iconv.h>
 
 #include <cerrno>
-#include <new>
-#include <optional>
-#include <span>
 
 #include "base/text.hpp"
 #include "formats/dfq/lines.hpp"

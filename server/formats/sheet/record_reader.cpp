@@ -1,7 +1,5 @@
 #include "formats/sheet/record_reader.hpp"
 
-#include <fmt/format.h>
-
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/text.hpp"

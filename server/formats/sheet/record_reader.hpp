@@ -1,14 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "base/csv.hpp"
 #include "base/result.hpp"
 #include "formats/sheet/text_encoding.hpp"

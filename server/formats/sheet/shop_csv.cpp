@@ -1,10 +1,5 @@
 #include "formats/sheet/shop_csv.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-
 #include "base/csv.hpp"
 #include "base/text.hpp"
 #include "formats/sheet/record_reader.hpp"

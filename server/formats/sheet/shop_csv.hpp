@@ -1,11 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "base/result.hpp"
 #include "formats/sheet/text_encoding.hpp"
 #include "formats/sheet/time_zone.hpp"

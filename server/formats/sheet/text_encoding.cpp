@@ -1,10 +1,5 @@
 #include "formats/sheet/text_encoding.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-
 #include "base/text.hpp"
 
 namespace fitgauge::sheet {

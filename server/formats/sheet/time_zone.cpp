@@ -1,12 +1,6 @@
 #include "formats/sheet/time_zone.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <chrono>
 #include <filesystem>
-#include <iterator>
 
 #include "base/regular_file.hpp"
 #include "base/text.hpp"

@@ -1,12 +1,5 @@
 #include "formats/step/drawing.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <map>
-#include <set>
-
 #include "base/digest.hpp"
 #include "base/text.hpp"
 #include "formats/step/faces.hpp"

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "base/json/body_forms.hpp"
 #include "base/mapped_file.hpp"
 #include "formats/step/part21.hpp"

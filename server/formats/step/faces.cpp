@@ -1,11 +1,5 @@
 #include "formats/step/faces.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <utility>
-
 #include "formats/step/values.hpp"
 
 namespace fitgauge::step {

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <span>
-
 #include "formats/step/part21.hpp"
 #include "tables/iso286/nominal_size.hpp"
 

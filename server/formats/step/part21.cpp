@@ -1,11 +1,6 @@
 #include "formats/step/part21.hpp"
 
-#include <array>
-#include <charconv>
-#include <cmath>
-#include <limits>
 #include <unordered_map>
-#include <utility>
 
 #include "base/allowance.hpp"
 #include "formats/sheet/text_encoding.hpp"

@@ -1,8 +1,5 @@
 #include "formats/step/part21_lexer.hpp"
 
-#include <charconv>
-#include <limits>
-
 namespace fitgauge::step {
 namespace {
 

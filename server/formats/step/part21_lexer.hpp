@@ -1,10 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <string_view>
-
 #include "base/mapped_file.hpp"
 #include "base/text.hpp"
 #include "formats/step/part21.hpp"

@@ -1,11 +1,5 @@
 #include "formats/step/plan.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <set>
-
 namespace fitgauge::step {
 using api::JsonWriter;
 using api::write_json;

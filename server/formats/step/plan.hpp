@@ -1,9 +1,5 @@
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "base/json/json_value.hpp"
 #include "formats/step/drawing.hpp"
 

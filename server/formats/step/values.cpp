@@ -1,12 +1,5 @@
 #include "formats/step/values.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
-
 #include "base/text.hpp"
 #include "record/verdict_codec.hpp"
 

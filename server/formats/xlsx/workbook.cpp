@@ -1,15 +1,12 @@
 #include "formats/xlsx/workbook.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <xlsxwriter.h>
 
-#include <cmath>
 #include <filesystem>
-#include <utility>
 
 namespace fitgauge::workbook {
 

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <string>
-#include <string_view>
-
 #include "base/clock.hpp"
 #include "base/length.hpp"
 #include "base/result.hpp"

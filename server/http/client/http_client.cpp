@@ -3,11 +3,6 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 
-#include <algorithm>
-#include <cstdint>
-#include <cstring>
-#include <utility>
-
 #include "base/number.hpp"
 #include "base/regular_file.hpp"
 #include "base/text.hpp"

@@ -3,17 +3,6 @@
 #include <curl/curl.h>
 #include <sys/socket.h>
 
-#include <array>
-#include <chrono>
-#include <cstddef>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 namespace fitgauge {
 
 /// Returns the wait that a line of an HTTP head requests (RFC 9110, 10.2.3); none for another field

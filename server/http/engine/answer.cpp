@@ -1,12 +1,5 @@
 #include "http/engine/answer.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <iterator>
-#include <stdexcept>
-#include <variant>
-
 #include "base/gzip.hpp"
 #include "base/text.hpp"
 

@@ -1,13 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <memory>
-#include <mutex>
-#include <string>
-#include <string_view>
-#include <utility>
-
 #include "base/clock.hpp"
 #include "http/field_list.hpp"
 #include "http/response.hpp"

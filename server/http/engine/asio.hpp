@@ -15,7 +15,6 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/wait_traits.hpp>
 #include <boost/system/error_code.hpp>
-#include <chrono>
 
 namespace fitgauge::http {
 

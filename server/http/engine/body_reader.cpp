@@ -1,9 +1,5 @@
 #include "http/engine/body_reader.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cstring>
-
 #include "http/request.hpp"
 
 namespace fitgauge::http {

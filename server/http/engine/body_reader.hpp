@@ -1,14 +1,5 @@
 #pragma once
 
-#include <atomic>
-#include <cstddef>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-
 #include "base/gzip.hpp"
 #include "base/mapped_file.hpp"
 

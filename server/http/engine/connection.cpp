@@ -1,8 +1,5 @@
 #include "http/engine/connection.hpp"
 
-#include <algorithm>
-#include <variant>
-
 namespace fitgauge::http {
 
 namespace {

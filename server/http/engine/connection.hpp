@@ -1,15 +1,6 @@
 #pragma once
 
 #include <cassert>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
 
 #include "base/gzip.hpp"
 #include "base/thread.hpp"

@@ -1,9 +1,6 @@
 // The part of a connection that reads a request's body: directly into its memory, or through the
 // chunked coding and gzip; it waits while other bodies hold the memory.
 
-#include <algorithm>
-#include <cstring>
-
 #include "http/engine/connection.hpp"
 
 namespace fitgauge::http {

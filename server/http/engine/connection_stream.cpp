@@ -1,11 +1,6 @@
 // The parts of a connection that other threads reach: answers of asynchronous handlers and the
 // pieces of streamed bodies.
 
-#include <algorithm>
-#include <functional>
-#include <utility>
-#include <vector>
-
 #include "http/engine/connection.hpp"
 #include "http/engine/io_thread.hpp"
 #include "http/response.hpp"

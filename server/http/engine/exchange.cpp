@@ -1,11 +1,5 @@
 #include "http/engine/exchange.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <exception>
-#include <utility>
-
 #include "base/text.hpp"
 #include "http/field_list.hpp"
 

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "http/engine/answer.hpp"
 #include "http/engine/body_reader.hpp"
 #include "http/engine/request_head.hpp"

@@ -1,8 +1,5 @@
 #include "http/engine/io_thread.hpp"
 
-#include <algorithm>
-#include <cstddef>
-
 #include "http/engine/connection.hpp"
 
 namespace fitgauge::http {

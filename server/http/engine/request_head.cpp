@@ -1,8 +1,5 @@
 #include "http/engine/request_head.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include "base/text.hpp"
 
 namespace fitgauge::http {

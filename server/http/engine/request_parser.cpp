@@ -1,9 +1,7 @@
 #include "http/engine/request_parser.hpp"
 
-#include <algorithm>
 #include <boost/asio/buffer.hpp>
 #include <boost/beast/http/error.hpp>
-#include <exception>
 
 #include "base/text.hpp"
 

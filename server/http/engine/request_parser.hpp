@@ -2,10 +2,6 @@
 
 #include <boost/beast/http/basic_parser.hpp>
 #include <boost/system/error_code.hpp>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <string_view>
 
 #include "http/engine/request_head.hpp"
 

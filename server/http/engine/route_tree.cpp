@@ -1,11 +1,5 @@
 #include "http/engine/route_tree.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <limits>
-#include <stdexcept>
-
 #include "base/length.hpp"
 #include "base/number.hpp"
 #include "base/text.hpp"

@@ -1,14 +1,7 @@
 #include "http/engine/transports.hpp"
 
-#include <fmt/format.h>
 #include <openssl/err.h>
 #include <openssl/pem.h>
-
-#include <algorithm>
-#include <array>
-#include <new>
-#include <string>
-#include <utility>
 
 #include "base/regular_file.hpp"
 #include "base/thread.hpp"

@@ -1,8 +1,5 @@
 #include "metrology/gauging/conformance.hpp"
 
-#include <algorithm>
-#include <array>
-
 #include "metrology/statistics/summary.hpp"
 
 namespace fitgauge::gauging {

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <optional>
-#include <span>
-#include <string_view>
-
 #include "base/length.hpp"
 
 namespace fitgauge::gauging {

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <optional>
-
 #include "metrology/gauging/gauge.hpp"
 
 namespace fitgauge::gauging {

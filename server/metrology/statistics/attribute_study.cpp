@@ -1,10 +1,5 @@
 #include "metrology/statistics/attribute_study.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <map>
-
 namespace fitgauge::metrology {
 namespace {
 

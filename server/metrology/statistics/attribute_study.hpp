@@ -1,10 +1,5 @@
 #pragma once
 
-#include <array>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "base/result.hpp"
 #include "metrology/statistics/summary.hpp"
 

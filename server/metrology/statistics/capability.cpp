@@ -1,8 +1,5 @@
 #include "metrology/statistics/capability.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace fitgauge::metrology {
 namespace {
 

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "metrology/statistics/control_chart.hpp"
 #include "metrology/statistics/decimals.hpp"
 #include "metrology/statistics/process_model.hpp"

@@ -1,10 +1,5 @@
 #include "metrology/statistics/compensation.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <vector>
-
 namespace fitgauge::metrology {
 namespace {
 

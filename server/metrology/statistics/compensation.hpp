@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string_view>
-
 namespace fitgauge::metrology {
 
 /// A part in the order of making, in µm.

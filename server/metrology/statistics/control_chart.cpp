@@ -1,12 +1,5 @@
 #include "metrology/statistics/control_chart.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-
 #include "metrology/statistics/summary.hpp"
 
 namespace fitgauge::metrology {

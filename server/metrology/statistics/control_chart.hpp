@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string_view>
-#include <vector>
-
 #include "metrology/statistics/decimals.hpp"
 #include "metrology/statistics/zone_rules.hpp"
 

@@ -1,11 +1,5 @@
 #include "metrology/statistics/decimals.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-
 namespace fitgauge::metrology {
 namespace {
 

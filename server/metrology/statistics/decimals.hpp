@@ -2,12 +2,6 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <string_view>
-#include <vector>
-
 #include "base/result.hpp"
 
 namespace fitgauge::metrology {

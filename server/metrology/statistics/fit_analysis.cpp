@@ -1,12 +1,5 @@
 #include "metrology/statistics/fit_analysis.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numeric>
-
 #include "base/allowance.hpp"
 #include "metrology/statistics/summary.hpp"
 

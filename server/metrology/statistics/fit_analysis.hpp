@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <string_view>
-#include <vector>
-
 #include "base/length.hpp"
 #include "base/result.hpp"
 #include "tables/iso286/tolerance_tables.hpp"

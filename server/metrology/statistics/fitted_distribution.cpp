@@ -1,9 +1,5 @@
 #include "metrology/statistics/capability.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "metrology/statistics/process_model.hpp"
 #include "metrology/statistics/summary.hpp"
 

@@ -1,11 +1,5 @@
 #include "metrology/statistics/gauge_study.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "metrology/statistics/summary.hpp"
 #include "metrology/statistics/zone_rules.hpp"
 

@@ -1,7 +1,5 @@
 #include "metrology/statistics/limit_gauge.hpp"
 
-#include <fmt/format.h>
-
 namespace fitgauge::metrology {
 namespace {
 

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <string_view>
-
 #include "base/result.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
 

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <optional>
-#include <string_view>
-
 namespace fitgauge::metrology {
 
 /// Components of the uncertainty of a measuring process (ISO 22514-7; VDA 5). The first ones, up to

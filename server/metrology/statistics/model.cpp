@@ -1,14 +1,6 @@
 #include "metrology/statistics/model.hpp"
 
-#include <fmt/format.h>
 #include <muParser.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <utility>
 
 #include "base/allowance.hpp"
 

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "metrology/statistics/uncertainty.hpp"
 
 namespace fitgauge::metrology {

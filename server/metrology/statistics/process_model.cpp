@@ -1,13 +1,5 @@
 #include "metrology/statistics/process_model.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <optional>
-
 namespace fitgauge::metrology {
 namespace {
 

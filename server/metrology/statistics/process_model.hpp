@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <string_view>
-
 #include "metrology/statistics/control_chart.hpp"
 #include "metrology/statistics/decimals.hpp"
 #include "metrology/statistics/summary.hpp"

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <span>
-#include <vector>
-
 #include "metrology/statistics/decimals.hpp"
 
 namespace fitgauge::metrology {

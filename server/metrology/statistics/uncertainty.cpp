@@ -1,12 +1,5 @@
 #include "metrology/statistics/uncertainty.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numeric>
-#include <span>
-#include <utility>
-
 #include "base/allowance.hpp"
 #include "metrology/statistics/summary.hpp"
 

@@ -1,10 +1,6 @@
 #include "metrology/statistics/zone_rules.hpp"
 
 #include <boost/math/quadrature/gauss.hpp>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <utility>
 
 #include "metrology/statistics/summary.hpp"
 

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <array>
-#include <bit>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 namespace fitgauge::metrology {
 
 // Constants of control charts for subgroups of n normal values, for any n: computed from their

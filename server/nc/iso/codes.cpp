@@ -1,10 +1,5 @@
 #include "nc/iso/codes.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <iterator>
-
 #include "nc/klartext/operator_names.hpp"
 
 namespace fitgauge::iso {

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <string>
-#include <string_view>
-
 /// The codes of DIN/ISO blocks and their Klartext.
 namespace fitgauge::iso {
 

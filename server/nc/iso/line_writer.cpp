@@ -1,8 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <utility>
-
 #include "base/text.hpp"
 #include "nc/iso/translation.hpp"
 

@@ -1,7 +1,5 @@
 #include "nc/iso/parser.hpp"
 
-#include <algorithm>
-
 #include "base/text.hpp"
 #include "nc/iso/translation.hpp"
 #include "nc/klartext/source_text.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <string_view>
-
 #include "nc/klartext/parser.hpp"
 
 namespace fitgauge::iso {

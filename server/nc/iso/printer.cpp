@@ -1,12 +1,5 @@
 #include "nc/iso/printer.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <optional>
-#include <span>
-#include <utility>
-
 #include "base/text.hpp"
 #include "nc/iso/codes.hpp"
 #include "nc/iso/parser.hpp"

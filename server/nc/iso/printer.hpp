@@ -1,9 +1,5 @@
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/syntax.hpp"
 

@@ -1,10 +1,5 @@
 #include "nc/iso/translation.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <utility>
-
 #include "base/text.hpp"
 #include "nc/iso/line.hpp"
 #include "nc/klartext/parser.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "nc/iso/words.hpp"
 #include "nc/klartext/diagnostic.hpp"
 

@@ -1,10 +1,5 @@
 #include "nc/iso/words.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <utility>
-
 #include "base/text.hpp"
 #include "nc/klartext/parser_rules.hpp"
 

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <array>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "nc/iso/codes.hpp"
 #include "nc/klartext/lexer.hpp"
 

@@ -1,9 +1,5 @@
 #include "nc/klartext/block_reader.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "nc/klartext/source_text.hpp"
 
 namespace fitgauge::klartext {

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <initializer_list>
-#include <span>
-#include <string_view>
-#include <vector>
-
 #include "nc/klartext/lexer.hpp"
 #include "nc/klartext/syntax.hpp"
 #include "nc/klartext/word_names.hpp"

@@ -1,10 +1,5 @@
 #include "nc/klartext/block_writer.hpp"
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <iterator>
-
 #include "base/text.hpp"
 
 namespace fitgauge::klartext {

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <string_view>
-
 #include "nc/klartext/syntax.hpp"
 #include "nc/klartext/word_names.hpp"
 

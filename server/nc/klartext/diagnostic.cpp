@@ -1,10 +1,5 @@
 #include "nc/klartext/diagnostic.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <utility>
-
 #include "base/text.hpp"
 #include "nc/klartext/source_text.hpp"
 

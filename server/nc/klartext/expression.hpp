@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <variant>
-
 /// Expressions as values: leaves are stored in place, inner nodes and texts in pools of the
 /// Program, so that an expression needs no allocation and can be copied freely.
 namespace fitgauge::klartext {

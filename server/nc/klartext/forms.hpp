@@ -1,7 +1,5 @@
 #pragma once
 
-#include <utility>
-
 #include "nc/klartext/parser_rules.hpp"
 #include "nc/klartext/parser_words.hpp"
 #include "nc/klartext/statement_writer.hpp"

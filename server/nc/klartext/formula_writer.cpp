@@ -1,8 +1,6 @@
 #include "nc/klartext/block_writer.hpp"
 #include "nc/klartext/operator_names.hpp"
 
-#include <cmath>
-
 /// The formulas of BlockWriter.
 namespace fitgauge::klartext {
 namespace {

@@ -1,11 +1,5 @@
 #include "nc/klartext/lexer.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <charconv>
-#include <utility>
-
 #include "base/text.hpp"
 
 namespace fitgauge::klartext {

@@ -1,13 +1,5 @@
 #pragma once
 
-#include <bit>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/expression.hpp"
 

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <variant>
-#include <vector>
-
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/expression.hpp"
 

@@ -1,8 +1,5 @@
 #include "nc/klartext/mask_format.hpp"
 
-#include <string>
-#include <utility>
-
 #include "base/text.hpp"
 
 namespace fitgauge::klartext {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "nc/klartext/lexer.hpp"
 #include "nc/klartext/mask_file.hpp"
 

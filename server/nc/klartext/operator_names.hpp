@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <optional>
-#include <string_view>
-
 #include "nc/klartext/expression.hpp"
 #include "nc/klartext/lexer.hpp"
 #include "nc/klartext/statement.hpp"

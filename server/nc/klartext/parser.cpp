@@ -1,11 +1,5 @@
 #include "nc/klartext/parser.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <optional>
-#include <utility>
-
 #include "base/text.hpp"
 #include "nc/klartext/block_reader.hpp"
 #include "nc/klartext/diagnostic.hpp"

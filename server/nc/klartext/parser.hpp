@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <vector>
-
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/syntax.hpp"
 

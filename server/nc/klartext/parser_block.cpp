@@ -1,9 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <iterator>
-
 #include "base/text.hpp"
 #include "nc/klartext/forms.hpp"
 #include "nc/klartext/parser.hpp"

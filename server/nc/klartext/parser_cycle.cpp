@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "base/text.hpp"
 #include "nc/klartext/operator_names.hpp"
 #include "nc/klartext/parser_rules.hpp"

@@ -1,6 +1,3 @@
-#include <array>
-#include <span>
-
 #include "nc/klartext/operator_names.hpp"
 #include "nc/klartext/parser_rules.hpp"
 

@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <optional>
-#include <string>
-
 #include "base/text.hpp"
 #include "nc/klartext/parser_rules.hpp"
 #include "nc/klartext/parser_words.hpp"

@@ -1,7 +1,3 @@
-#include <fmt/format.h>
-
-#include <vector>
-
 #include "nc/klartext/forms.hpp"
 #include "nc/klartext/operator_names.hpp"
 #include "nc/klartext/parser_rules.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 #include "nc/klartext/block_reader.hpp"
 
 /// The grammar: one function for each family of blocks, which begins after the block's first

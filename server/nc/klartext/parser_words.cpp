@@ -1,7 +1,5 @@
 #include "nc/klartext/parser_words.hpp"
 
-#include <fmt/format.h>
-
 #include "base/text.hpp"
 #include "nc/klartext/parser_rules.hpp"
 

@@ -1,7 +1,5 @@
 #include "nc/klartext/printer.hpp"
 
-#include <optional>
-
 #include "nc/klartext/forms.hpp"
 
 namespace fitgauge::klartext {

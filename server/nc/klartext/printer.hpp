@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "nc/klartext/syntax.hpp"
 
 namespace fitgauge::klartext {

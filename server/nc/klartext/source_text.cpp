@@ -1,9 +1,5 @@
 #include "nc/klartext/source_text.hpp"
 
-#include <algorithm>
-#include <cstring>
-#include <iterator>
-
 #include "base/text.hpp"
 
 namespace fitgauge::klartext {

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string_view>
-#include <variant>
-
 #include "nc/klartext/expression.hpp"
 #include "nc/klartext/word_names.hpp"
 

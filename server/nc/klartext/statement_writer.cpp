@@ -1,7 +1,5 @@
 #include "nc/klartext/statement_writer.hpp"
 
-#include <string>
-
 #include "nc/klartext/operator_names.hpp"
 
 /// Blocks other than cycles and functions: frame, tools, motion, flow, transformations.

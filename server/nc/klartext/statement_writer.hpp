@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 #include "nc/klartext/block_writer.hpp"
 
 /// Each writes one kind of statement; plain forms are in forms.hpp.

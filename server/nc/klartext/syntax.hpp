@@ -1,14 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <type_traits>
-#include <vector>
-
 #include "base/text.hpp"
 #include "nc/klartext/expression.hpp"
 #include "nc/klartext/statement.hpp"

@@ -1,8 +1,5 @@
 #include "nc/klartext/word_names.hpp"
 
-#include <array>
-#include <cstddef>
-
 #include "base/text.hpp"
 
 namespace fitgauge::klartext {

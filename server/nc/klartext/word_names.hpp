@@ -1,10 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string_view>
-
 #include "nc/klartext/expression.hpp"
 
 /// Words and their spellings, which the parser and the printer share.

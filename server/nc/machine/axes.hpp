@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string_view>
-#include <vector>
-
 #include "base/allowance.hpp"
 #include "nc/machine/fault.hpp"
 #include "nc/machine/path.hpp"

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string_view>
-
 #include "nc/machine/geometry.hpp"
 
 namespace fitgauge::machine {

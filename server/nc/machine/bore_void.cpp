@@ -1,9 +1,5 @@
 #include "nc/machine/bore_void.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "nc/machine/tolerance.hpp"
 
 namespace fitgauge::machine {

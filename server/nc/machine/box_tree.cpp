@@ -1,9 +1,5 @@
 #include "nc/machine/box_tree.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace fitgauge::machine {
 namespace {
 

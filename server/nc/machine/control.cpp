@@ -1,9 +1,5 @@
 #include "nc/machine/control.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 namespace fitgauge::machine {
 Control::Control(const MachineSetup& setup, std::unique_ptr<Axes> axes, Allowance* allowance)
     : axes_(std::move(axes)), allowance_(allowance != nullptr ? *allowance : unlimited_) {

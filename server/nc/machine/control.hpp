@@ -1,8 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <optional>
-
 #include "nc/machine/axes.hpp"
 #include "nc/machine/machine.hpp"
 #include "nc/machine/machine_setup.hpp"

@@ -1,8 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "nc/machine/control.hpp"
 #include "nc/machine/tolerance.hpp"
 

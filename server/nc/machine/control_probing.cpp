@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-
 #include "nc/machine/control.hpp"
 
 namespace fitgauge::machine {

@@ -1,10 +1,5 @@
 #include "nc/machine/delaunay.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <numeric>
-
 namespace fitgauge::machine {
 namespace {
 

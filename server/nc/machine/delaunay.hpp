@@ -1,9 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
 #include "nc/machine/geometry.hpp"
 
 namespace fitgauge::machine {

@@ -1,9 +1,5 @@
 #include "nc/machine/fault.hpp"
 
-#include <fmt/format.h>
-
-#include <stdexcept>
-
 namespace fitgauge::machine {
 namespace {
 

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <boost/system/result.hpp>
-#include <cstdint>
-#include <string>
-#include <string_view>
-
 namespace fitgauge::machine {
 
 enum class FaultKind : std::uint8_t {

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <optional>
-
 #include "nc/machine/axis.hpp"
 #include "nc/machine/geometry.hpp"
 

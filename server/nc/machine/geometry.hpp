@@ -1,9 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <cstddef>
-
 namespace fitgauge::machine {
 
 inline constexpr double kPi = 3.14159265358979323846;

@@ -1,9 +1,5 @@
 #include "nc/machine/kinematics.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "nc/machine/tolerance.hpp"
 
 namespace fitgauge::machine {

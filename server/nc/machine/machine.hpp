@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string_view>
-#include <vector>
-
 #include "nc/machine/axis.hpp"
 #include "nc/machine/fault.hpp"
 #include "nc/machine/machine_state.hpp"

@@ -1,13 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
-#include <variant>
-#include <vector>
-
 #include "base/result.hpp"
 #include "nc/machine/axis.hpp"
 #include "nc/machine/kinematics.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <array>
-#include <limits>
-#include <optional>
-
 #include "nc/machine/axis.hpp"
 #include "nc/machine/frames.hpp"
 #include "nc/machine/kinematics.hpp"

@@ -1,7 +1,5 @@
 #include "nc/machine/path.hpp"
 
-#include <algorithm>
-
 namespace fitgauge::machine {
 
 Path straight_path(const Position& start, const Position& end) {

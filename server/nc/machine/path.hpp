@@ -1,8 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <limits>
-
 #include "nc/machine/axis.hpp"
 
 namespace fitgauge::machine {

@@ -1,7 +1,5 @@
 #include "nc/machine/random.hpp"
 
-#include <bit>
-
 namespace fitgauge::machine {
 
 Random::Random(std::uint64_t seed) : state_{} {

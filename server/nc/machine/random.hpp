@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-
 namespace fitgauge::machine {
 
 /// xoshiro256++ (Blackman and Vigna), seeded by SplitMix64: the same numbers for the same seed on

@@ -1,9 +1,5 @@
 #include "nc/machine/scripted_machine.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 namespace fitgauge::machine {
 
 MachineResult<double> ScriptedAxes::follow(const Path& path, const Motion& motion) {

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <optional>
-#include <vector>
-
 #include "nc/machine/control.hpp"
 
 namespace fitgauge::machine {

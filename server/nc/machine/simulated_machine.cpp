@@ -1,9 +1,5 @@
 #include "nc/machine/simulated_machine.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "nc/machine/sphere_tracing.hpp"
 #include "nc/machine/tolerance.hpp"
 

@@ -1,8 +1,5 @@
 #include "nc/machine/solid.hpp"
 
-#include <algorithm>
-#include <limits>
-
 #include "nc/machine/tolerance.hpp"
 
 namespace fitgauge::machine {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "nc/machine/box_tree.hpp"
 #include "nc/machine/geometry.hpp"
 #include "nc/machine/machine_setup.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-
 #include "base/allowance.hpp"
 #include "nc/machine/tolerance.hpp"
 

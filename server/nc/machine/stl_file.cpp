@@ -1,12 +1,5 @@
 #include "nc/machine/stl_file.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <bit>
-#include <cstring>
-#include <numeric>
-
 #include "base/number.hpp"
 
 namespace fitgauge::machine {

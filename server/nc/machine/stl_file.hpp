@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string_view>
-#include <vector>
-
 #include "base/result.hpp"
 #include "nc/machine/triangle_tree.hpp"
 

@@ -1,8 +1,5 @@
 #include "nc/machine/surface_solid.hpp"
 
-#include <algorithm>
-#include <limits>
-
 #include "nc/machine/delaunay.hpp"
 #include "nc/machine/tolerance.hpp"
 

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <vector>
-
 #include "nc/machine/solid.hpp"
 #include "nc/machine/triangle_tree.hpp"
 

@@ -1,7 +1,5 @@
 #include "nc/machine/tables.hpp"
 
-#include <algorithm>
-
 #include "base/text.hpp"
 
 namespace fitgauge::machine {

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <array>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "nc/machine/axis.hpp"
 #include "nc/machine/frames.hpp"
 #include "nc/machine/geometry.hpp"

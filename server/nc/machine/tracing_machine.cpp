@@ -1,10 +1,5 @@
 #include "nc/machine/tracing_machine.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <cmath>
-
 namespace fitgauge::machine {
 namespace {
 

@@ -1,9 +1,5 @@
 #include "nc/machine/triangle_tree.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "nc/machine/tolerance.hpp"
 
 namespace fitgauge::machine {

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <array>
-#include <optional>
-#include <vector>
-
 #include "nc/machine/box_tree.hpp"
 #include "nc/machine/geometry.hpp"
 #include "nc/machine/solid.hpp"

@@ -1,10 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
-#include <string>
-
 #include "nc/machine/delaunay.hpp"
 #include "nc/machine/machine_setup.hpp"
 #include "nc/machine/tolerance.hpp"

@@ -1,9 +1,5 @@
 #include "nc/machine/workpiece.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <tuple>
-
 #include "nc/machine/bore_void.hpp"
 #include "nc/machine/solid.hpp"
 #include "nc/machine/sphere_tracing.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "base/allowance.hpp"
 #include "nc/machine/box_tree.hpp"
 #include "nc/machine/geometry.hpp"

@@ -1,10 +1,6 @@
 #include "nc/probing/arguments.hpp"
 
-#include <fmt/format.h>
-
 #include <cassert>
-#include <cmath>
-#include <utility>
 
 #include "base/result.hpp"
 

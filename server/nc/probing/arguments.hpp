@@ -1,9 +1,5 @@
 #pragma once
 
-#include <string>
-#include <variant>
-#include <vector>
-
 #include "nc/probing/cycle_descriptor.hpp"
 #include "nc/probing/cycle_fault.hpp"
 

@@ -1,8 +1,5 @@
 #include "nc/probing/cycle_descriptor.hpp"
 
-#include <algorithm>
-#include <array>
-
 #include "base/text.hpp"
 
 namespace fitgauge::probing {

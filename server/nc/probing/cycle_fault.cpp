@@ -1,10 +1,5 @@
 #include "nc/probing/cycle_fault.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <stdexcept>
-
 namespace fitgauge::probing {
 namespace {
 

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <boost/system/result.hpp>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "nc/machine/fault.hpp"
 
 namespace fitgauge::probing {

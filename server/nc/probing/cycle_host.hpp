@@ -1,13 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <set>
-#include <string>
-#include <string_view>
-#include <utility>
-
 #include "base/clock.hpp"
 #include "nc/machine/axis.hpp"
 #include "nc/machine/kinematics.hpp"

@@ -1,7 +1,5 @@
 #include "nc/probing/cycles.hpp"
 
-#include <algorithm>
-
 namespace fitgauge::probing {
 namespace {
 

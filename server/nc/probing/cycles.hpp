@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 #include "nc/probing/touch_probe_cycle.hpp"
 
 namespace fitgauge::probing {

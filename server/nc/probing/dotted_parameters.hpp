@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "nc/machine/geometry.hpp"
 #include "nc/probing/arguments.hpp"
 #include "nc/probing/parameters.hpp"

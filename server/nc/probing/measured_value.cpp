@@ -1,9 +1,5 @@
 #include "nc/probing/measured_value.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "metrology/gauging/gauge.hpp"
 
 namespace fitgauge::probing {

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string_view>
-
 #include "nc/probing/arguments.hpp"
 #include "nc/probing/cycle_host.hpp"
 #include "nc/probing/measuring_record.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-
 #include "nc/probing/cycle_descriptor.hpp"
 
 /// The parameters that cycles share, with the input ranges of the control's manuals: coordinates

@@ -1,9 +1,5 @@
 #include "nc/program/arithmetic.hpp"
 
-#include <fmt/format.h>
-
-#include <cstdint>
-
 #include "nc/machine/geometry.hpp"
 
 namespace fitgauge::interpreter {

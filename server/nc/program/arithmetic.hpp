@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cmath>
-#include <limits>
-#include <string>
-
 #include "nc/klartext/expression.hpp"
 #include "nc/machine/tolerance.hpp"
 

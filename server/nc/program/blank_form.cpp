@@ -1,9 +1,5 @@
 #include "nc/program/blank_form.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "nc/klartext/word_names.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "nc/klartext/syntax.hpp"
 
 namespace fitgauge::interpreter {

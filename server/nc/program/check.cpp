@@ -1,12 +1,5 @@
 #include "nc/program/check.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <deque>
-#include <map>
-#include <set>
-
 #include "base/text.hpp"
 #include "nc/klartext/parser.hpp"
 #include "nc/program/blank_form.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "base/allowance.hpp"
 #include "base/result.hpp"
 #include "nc/klartext/diagnostic.hpp"

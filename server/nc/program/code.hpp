@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "nc/klartext/expression.hpp"
 
 /// The flat code that programs run as: three-address instructions over one array of doubles.

@@ -1,12 +1,6 @@
 #include "nc/program/contradictions.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <bitset>
-#include <cmath>
-#include <map>
-#include <utility>
 
 #include "base/text.hpp"
 #include "nc/probing/cycles.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/syntax.hpp"
 

@@ -1,9 +1,5 @@
 #include "nc/program/control_disk.hpp"
 
-#include <algorithm>
-#include <functional>
-#include <vector>
-
 #include "base/text.hpp"
 
 namespace fitgauge::interpreter {

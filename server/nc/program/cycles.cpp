@@ -1,10 +1,5 @@
 #include "nc/program/cycles.hpp"
 
-#include <algorithm>
-#include <array>
-#include <limits>
-#include <string>
-
 #include "base/text.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/parameters.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string_view>
-#include <vector>
-
 #include "nc/klartext/statement.hpp"
 #include "nc/klartext/syntax.hpp"
 #include "nc/probing/arguments.hpp"

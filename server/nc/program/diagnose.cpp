@@ -1,10 +1,5 @@
 #include "nc/program/diagnose.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <iterator>
-
 #include "base/text.hpp"
 #include "nc/program/parameter.hpp"
 

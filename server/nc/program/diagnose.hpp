@@ -1,13 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "base/text.hpp"
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/syntax.hpp"

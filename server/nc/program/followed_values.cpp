@@ -1,8 +1,5 @@
 #include "nc/program/followed_values.hpp"
 
-#include <algorithm>
-#include <string>
-
 #include "base/number.hpp"
 #include "nc/program/diagnose.hpp"
 

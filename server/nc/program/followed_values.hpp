@@ -1,11 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <map>
-#include <optional>
-#include <utility>
-
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/syntax.hpp"
 #include "nc/program/arithmetic.hpp"

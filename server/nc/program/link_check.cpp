@@ -1,13 +1,6 @@
 #include "nc/program/link_check.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <bit>
 #include <bitset>
-#include <set>
-#include <string>
-#include <utility>
 
 #include "base/text.hpp"
 #include "nc/klartext/parser.hpp"

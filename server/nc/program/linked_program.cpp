@@ -1,7 +1,5 @@
 #include "nc/program/linked_program.hpp"
 
-#include <algorithm>
-
 #include "base/text.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,10 +1,5 @@
 #include "nc/program/linker.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "base/text.hpp"
 #include "nc/program/arithmetic.hpp"
 #include "nc/program/contradictions.hpp"

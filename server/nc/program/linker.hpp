@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/parser.hpp"
 #include "nc/program/linked_program.hpp"

@@ -1,9 +1,5 @@
 #include "nc/program/lowering.hpp"
 
-#include <algorithm>
-#include <bit>
-#include <utility>
-
 #include "nc/program/arithmetic.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <unordered_map>
-#include <vector>
 
 #include "nc/klartext/syntax.hpp"
 #include "nc/program/code.hpp"

@@ -1,11 +1,5 @@
 #include "nc/program/machining_cycles.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "nc/probing/parameters.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-
 #include "nc/klartext/statement.hpp"
 #include "nc/probing/cycle_descriptor.hpp"
 

@@ -1,7 +1,5 @@
 #include "nc/program/parameter.hpp"
 
-#include <cmath>
-
 #include "base/number.hpp"
 #include "base/text.hpp"
 #include "tables/tabfile/characters.hpp"

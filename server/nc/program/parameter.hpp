@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <string_view>
-#include <variant>
-
 #include "base/result.hpp"
 #include "nc/klartext/expression.hpp"
 

@@ -1,7 +1,5 @@
 #include "nc/program/program_cache.hpp"
 
-#include <fmt/format.h>
-
 #include "nc/iso/parser.hpp"
 #include "nc/program/linker.hpp"
 

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <cstddef>
 #include <list>
-#include <memory>
-#include <mutex>
-#include <string>
 #include <unordered_map>
 
 #include "nc/program/control_disk.hpp"

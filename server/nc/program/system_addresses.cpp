@@ -1,7 +1,5 @@
 #include "nc/program/system_addresses.hpp"
 
-#include <algorithm>
-
 namespace fitgauge::interpreter {
 namespace {
 

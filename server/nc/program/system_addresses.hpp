@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <span>
-
 namespace fitgauge::interpreter {
 
 /// An ID of FN 18: SYSREAD, and its NR; none listed: the NR is a row.

@@ -1,12 +1,5 @@
 #include "nc/program/word_senses.hpp"
 
-#include <algorithm>
-#include <array>
-#include <functional>
-#include <map>
-#include <string>
-#include <vector>
-
 #include "base/text.hpp"
 
 namespace fitgauge::interpreter {

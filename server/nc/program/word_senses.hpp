@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <string_view>
-
 #include "nc/probing/cycle_descriptor.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <map>
-#include <optional>
-#include <set>
-#include <string>
-#include <variant>
-#include <vector>
-
 #include "nc/klartext/statement.hpp"
 #include "nc/machine/axis.hpp"
 #include "nc/program/control_disk.hpp"

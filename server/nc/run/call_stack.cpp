@@ -1,9 +1,5 @@
 #include "nc/run/call_stack.hpp"
 
-#include <fmt/format.h>
-
-#include <utility>
-
 namespace fitgauge::interpreter {
 
 CallStack::CallStack(std::shared_ptr<const LinkedProgram> main, const RunLimits& limits)

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <vector>
-
 #include "nc/program/linked_program.hpp"
 #include "nc/run/nc_error.hpp"
 #include "nc/run/run_budget.hpp"

@@ -1,9 +1,5 @@
 #include "nc/run/channel.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/program/linker.hpp"
 

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
-#include <memory>
-#include <optional>
-#include <string>
-
 #include "nc/machine/machine.hpp"
 #include "nc/probing/cycle_host.hpp"
 #include "nc/run/active_cycle.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "nc/klartext/statement.hpp"
 #include "nc/run/cutter_path.hpp"
 #include "nc/run/sl_contour.hpp"

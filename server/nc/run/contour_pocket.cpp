@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "nc/run/channel.hpp"
 #include "nc/run/cutter_path.hpp"
 #include "nc/run/machining.hpp"

@@ -1,10 +1,5 @@
 #include "nc/run/cutter_path.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <utility>
-
 #include "nc/machine/tolerance.hpp"
 #include "nc/run/tool_orientation.hpp"
 

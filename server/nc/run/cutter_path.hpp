@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cmath>
-#include <optional>
-#include <string_view>
-#include <vector>
-
 #include "nc/machine/machine.hpp"
 #include "nc/machine/tolerance.hpp"
 #include "nc/run/nc_error.hpp"

@@ -1,9 +1,5 @@
 #include "nc/run/dotted_arguments.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
-
 #include "nc/program/cycles.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/values.hpp"

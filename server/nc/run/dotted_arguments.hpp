@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "nc/probing/touch_probe_cycle.hpp"
 #include "nc/run/nc_error.hpp"
 

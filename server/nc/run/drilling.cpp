@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-
 #include "nc/run/machining.hpp"
 
 /// Cycles along the tool axis, as the control's manuals describe their steps.

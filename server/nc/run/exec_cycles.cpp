@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "nc/program/cycles.hpp"
 #include "nc/program/linked_program.hpp"
 #include "nc/run/channel.hpp"

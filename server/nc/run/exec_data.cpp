@@ -1,7 +1,3 @@
-#include <fmt/format.h>
-
-#include <array>
-
 #include "base/text.hpp"
 #include "nc/probing/touch/fits.hpp"
 #include "nc/run/channel.hpp"

@@ -1,7 +1,3 @@
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
 #include "nc/run/values.hpp"

@@ -1,9 +1,3 @@
-#include <array>
-#include <map>
-#include <span>
-#include <string>
-#include <string_view>
-
 #include "nc/klartext/parser_words.hpp"
 #include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"

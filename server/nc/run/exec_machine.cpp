@@ -1,8 +1,3 @@
-#include <fmt/format.h>
-
-#include <cmath>
-#include <utility>
-
 #include "nc/run/channel.hpp"
 #include "nc/run/m_functions.hpp"
 #include "nc/run/motion_words.hpp"

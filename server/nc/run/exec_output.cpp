@@ -1,7 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "base/text.hpp"
 #include "nc/program/blank_form.hpp"
 #include "nc/run/channel.hpp"

@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <map>
-#include <vector>
-
 #include "nc/run/channel.hpp"
 #include "nc/run/plane_geometry.hpp"
 #include "nc/run/statements.hpp"

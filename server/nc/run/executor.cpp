@@ -1,9 +1,5 @@
 #include "nc/run/executor.hpp"
 
-#include <cmath>
-#include <iterator>
-#include <utility>
-
 #include "nc/program/arithmetic.hpp"
 #include "nc/run/executor_steps.hpp"
 

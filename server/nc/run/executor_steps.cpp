@@ -1,8 +1,5 @@
 #include "nc/run/executor_steps.hpp"
 
-#include <cmath>
-#include <utility>
-
 #include "nc/program/arithmetic.hpp"
 #include "nc/program/linked_program.hpp"
 #include "nc/run/statements.hpp"

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <limits>
-#include <memory>
-#include <optional>
-#include <utility>
-
 #include "nc/run/channel.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-
 #include "nc/machine/tolerance.hpp"
 #include "nc/run/machining.hpp"
 

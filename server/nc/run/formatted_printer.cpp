@@ -1,11 +1,5 @@
 #include "nc/run/formatted_printer.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "nc/run/channel.hpp"
 #include "nc/run/string_functions.hpp"
 #include "nc/run/values.hpp"

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "nc/klartext/mask_file.hpp"
 #include "nc/program/control_disk.hpp"
 #include "nc/run/nc_error.hpp"

@@ -1,10 +1,5 @@
 #include "nc/run/frame_commands.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/m_functions.hpp"

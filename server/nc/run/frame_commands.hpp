@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <optional>
-
 #include "nc/klartext/statement.hpp"
 #include "nc/machine/machine.hpp"
 #include "nc/run/motion_words.hpp"

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <stop_token>
-#include <vector>
-
 #include "base/allowance.hpp"
 #include "base/clock.hpp"
 #include "nc/klartext/mask_file.hpp"

@@ -1,10 +1,5 @@
 #include "nc/run/kinematics_records.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-
 #include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::interpreter {

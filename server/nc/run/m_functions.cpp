@@ -1,10 +1,5 @@
 #include "nc/run/m_functions.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <limits>
-
 #include "nc/machine/tolerance.hpp"
 #include "nc/probing/alignment/rotation.hpp"
 #include "nc/run/channel.hpp"

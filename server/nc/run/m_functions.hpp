@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "nc/run/motion_words.hpp"
 #include "nc/run/statements.hpp"
 

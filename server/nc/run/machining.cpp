@@ -1,10 +1,5 @@
 #include "nc/run/machining.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
 

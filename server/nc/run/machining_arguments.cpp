@@ -1,10 +1,5 @@
 #include "nc/run/machining_arguments.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <limits>
-
 #include "nc/program/cycles.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/values.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "nc/program/cycles.hpp"
 #include "nc/run/active_cycle.hpp"
 #include "nc/run/nc_error.hpp"

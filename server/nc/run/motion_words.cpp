@@ -1,9 +1,5 @@
 #include "nc/run/motion_words.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "nc/program/diagnose.hpp"
 #include "nc/program/linked_program.hpp"
 #include "nc/run/channel.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <array>
-#include <optional>
-#include <vector>
-
 #include "nc/klartext/syntax.hpp"
 #include "nc/machine/machine.hpp"
 #include "nc/program/control_disk.hpp"

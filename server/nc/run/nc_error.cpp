@@ -1,7 +1,5 @@
 #include "nc/run/nc_error.hpp"
 
-#include <stdexcept>
-
 #include "nc/program/diagnose.hpp"
 
 namespace fitgauge::interpreter {

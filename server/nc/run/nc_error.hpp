@@ -1,13 +1,5 @@
 #pragma once
 
-#include <boost/system/result.hpp>
-
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "base/result.hpp"
 #include "nc/machine/fault.hpp"
 #include "nc/probing/cycle_fault.hpp"

@@ -1,9 +1,5 @@
 #include "nc/run/origins.hpp"
 
-#include <algorithm>
-#include <optional>
-#include <utility>
-
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/linked_program.hpp"

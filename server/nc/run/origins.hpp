@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/run/nc_error.hpp"
 #include "nc/run/run_observer.hpp"

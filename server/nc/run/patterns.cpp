@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/machining.hpp"

@@ -1,8 +1,5 @@
 #include "nc/run/plane_geometry.hpp"
 
-#include <algorithm>
-#include <vector>
-
 #include "nc/machine/tolerance.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,10 +1,5 @@
 #include "nc/run/positioning.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-
 #include "nc/machine/tolerance.hpp"
 #include "nc/run/cutter_path.hpp"
 #include "nc/run/tool_orientation.hpp"

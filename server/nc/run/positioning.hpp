@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "nc/klartext/statement.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/motion_words.hpp"

@@ -1,10 +1,5 @@
 #include "nc/run/q_parameters.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "nc/program/arithmetic.hpp"
 #include "nc/program/linked_program.hpp"
 #include "nc/program/parameter.hpp"

@@ -1,9 +1,5 @@
 #include "nc/run/run_budget.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 namespace fitgauge::interpreter {
 
 NcResult<std::int64_t> RunBudget::refuel(std::int64_t left, std::int64_t needed) {

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <chrono>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-
 #include "base/allowance.hpp"
 #include "nc/run/nc_error.hpp"
 

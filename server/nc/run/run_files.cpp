@@ -1,7 +1,5 @@
 #include "nc/run/run_files.hpp"
 
-#include <fmt/format.h>
-
 #include "base/text.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,13 +1,5 @@
 #pragma once
 
-#include <map>
-#include <memory>
-#include <optional>
-#include <set>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "nc/program/control_disk.hpp"
 #include "nc/run/nc_error.hpp"
 #include "nc/run/run_log.hpp"

@@ -1,10 +1,5 @@
 #include "nc/run/run_log.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "base/text.hpp"
 #include "nc/klartext/lexer.hpp"
 #include "nc/program/diagnose.hpp"

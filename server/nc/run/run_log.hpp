@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <set>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "nc/run/nc_error.hpp"
 #include "nc/run/run_budget.hpp"
 #include "nc/run/run_observer.hpp"

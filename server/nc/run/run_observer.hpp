@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <string_view>
-
 #include "nc/run/run_result.hpp"
 
 namespace fitgauge::klartext {

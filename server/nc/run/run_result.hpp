@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/machine/tables.hpp"
 #include "nc/probing/measuring_record.hpp"

@@ -1,9 +1,5 @@
 #include "nc/run/sl_clearing.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "nc/machine/tolerance.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "nc/run/run_budget.hpp"
 #include "nc/run/sl_contour.hpp"
 

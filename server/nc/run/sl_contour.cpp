@@ -1,11 +1,5 @@
 #include "nc/run/sl_contour.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/executor.hpp"

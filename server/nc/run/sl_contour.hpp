@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "nc/klartext/statement.hpp"
 #include "nc/machine/machine.hpp"
 #include "nc/run/cutter_path.hpp"

@@ -1,10 +1,5 @@
 #include "nc/run/statements.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-
 #include "nc/run/channel.hpp"
 
 namespace fitgauge::interpreter {

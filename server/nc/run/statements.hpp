@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-
 #include "nc/klartext/statement.hpp"
 #include "nc/program/code.hpp"
 #include "nc/program/linked_program.hpp"

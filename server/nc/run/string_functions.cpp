@@ -1,11 +1,5 @@
 #include "nc/run/string_functions.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <charconv>
-#include <cmath>
-
 #include "base/text.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/values.hpp"

@@ -1,9 +1,5 @@
 #include "nc/run/system_data.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "nc/program/system_addresses.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/tool_values.hpp"

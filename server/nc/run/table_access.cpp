@@ -1,10 +1,5 @@
 #include "nc/run/table_access.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-
 #include "base/text.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/run/tool_values.hpp"

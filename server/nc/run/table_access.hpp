@@ -1,12 +1,5 @@
 #pragma once
 
-#include <map>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "base/allowance.hpp"
 #include "nc/klartext/expression.hpp"
 #include "nc/machine/axis.hpp"

@@ -1,10 +1,5 @@
 #include "nc/run/tool_orientation.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <limits>
-
 #include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/values.hpp"

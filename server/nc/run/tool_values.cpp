@@ -1,8 +1,5 @@
 #include "nc/run/tool_values.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/text.hpp"
 #include "nc/run/channel.hpp"
 

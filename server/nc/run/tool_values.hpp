@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string_view>
-
 #include "nc/machine/geometry.hpp"
 #include "nc/machine/tables.hpp"
 #include "nc/program/code.hpp"

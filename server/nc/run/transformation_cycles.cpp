@@ -1,10 +1,5 @@
 #include "nc/run/transformation_cycles.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "nc/klartext/word_names.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/frame_commands.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <span>
-
 #include "nc/klartext/word_names.hpp"
 #include "nc/run/frame_commands.hpp"
 #include "nc/run/nc_error.hpp"

@@ -1,10 +1,5 @@
 #include "nc/run/values.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <limits>
-
 #include "nc/program/arithmetic.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/string_functions.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include "nc/klartext/expression.hpp"
 #include "nc/run/nc_error.hpp"
 

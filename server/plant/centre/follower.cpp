@@ -1,7 +1,5 @@
 #include "plant/centre/forwarder.hpp"
 
-#include <fmt/format.h>
-
 #include "base/gzip.hpp"
 #include "base/regular_file.hpp"
 #include "base/text.hpp"

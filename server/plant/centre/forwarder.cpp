@@ -1,11 +1,5 @@
 #include "plant/centre/forwarder.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <charconv>
-#include <condition_variable>
-
 #include "base/digest.hpp"
 #include "base/json/json_value.hpp"
 #include "service/log/batch_text.hpp"

@@ -1,14 +1,6 @@
 #pragma once
 
-#include <atomic>
-#include <chrono>
-#include <cstdint>
-#include <functional>
-#include <mutex>
-#include <optional>
 #include <random>
-#include <string>
-#include <string_view>
 
 #include "base/thread.hpp"
 #include "http/client/http_client.hpp"

@@ -1,11 +1,5 @@
 #include "plant/folder/folder_in.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <charconv>
-#include <utility>
-
 #include "base/digest.hpp"
 #include "base/text.hpp"
 #include "formats/dfq/measurement_csv.hpp"

@@ -1,16 +1,8 @@
 #include "plant/folder/folder_in.hpp"
 
-#include <fmt/format.h>
 #include <poll.h>
 #include <sys/inotify.h>
 #include <unistd.h>
-
-#include <algorithm>
-#include <cstring>
-#include <map>
-#include <set>
-#include <span>
-#include <utility>
 
 #include "base/text.hpp"
 #include "base/thread.hpp"

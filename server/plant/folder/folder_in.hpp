@@ -2,16 +2,7 @@
 
 #include <sys/stat.h>
 
-#include <chrono>
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <optional>
-#include <stop_token>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "base/digest.hpp"
 #include "base/folder.hpp"

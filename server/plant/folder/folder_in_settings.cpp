@@ -1,10 +1,6 @@
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
-#include <string>
-#include <utility>
 
 #include "base/clock.hpp"
 #include "base/text.hpp"

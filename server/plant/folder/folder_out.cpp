@@ -1,9 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <vector>
-
 #include "api/measurements/measurement_codec.hpp"
 #include "api/measurements/measurement_file.hpp"
 #include "base/folder.hpp"

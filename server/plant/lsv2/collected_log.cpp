@@ -1,10 +1,6 @@
 #include "plant/lsv2/collected_log.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <ctime>
-#include <map>
 
 #include "base/digest.hpp"
 #include "base/text.hpp"

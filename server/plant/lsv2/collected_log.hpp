@@ -1,15 +1,5 @@
 #pragma once
 
-#include <chrono>
-#include <cstddef>
-#include <cstdint>
-#include <deque>
-#include <memory>
-#include <optional>
-#include <stop_token>
-#include <string>
-#include <vector>
-
 #include "formats/measuring_log/pattern.hpp"
 #include "plant/lsv2/link/link_socket.hpp"
 #include "plant/plant.hpp"

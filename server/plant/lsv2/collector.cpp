@@ -1,10 +1,5 @@
 #include "plant/lsv2/collected_log.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <map>
-
 #include "base/digest.hpp"
 #include "base/text.hpp"
 #include "base/thread.hpp"

@@ -1,10 +1,6 @@
 #include "plant/lsv2/collected_log.hpp"
 
-#include <fmt/format.h>
-
-#include <deque>
 #include <future>
-#include <optional>
 
 #include "base/thread.hpp"
 #include "nc/program/control_disk.hpp"

@@ -1,8 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <deque>
-
 #include "plant/kind.hpp"
 #include "plant/mqtt/mqtt_link.hpp"
 #include "record/record.hpp"

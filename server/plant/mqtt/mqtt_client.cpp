@@ -1,18 +1,12 @@
 #include "plant/mqtt/mqtt_client.hpp"
 
-#include <fmt/format.h>
 #include <mosquitto.h>
 #include <mqtt_protocol.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <cstring>
-#include <memory>
-#include <new>
-#include <utility>
 
 #include "base/regular_file.hpp"
 

@@ -1,17 +1,6 @@
 #pragma once
 
-#include <chrono>
-#include <condition_variable>
-#include <cstdint>
-#include <deque>
 #include <filesystem>
-#include <functional>
-#include <map>
-#include <mutex>
-#include <optional>
-#include <stop_token>
-#include <string>
-#include <variant>
 
 #include "base/thread.hpp"
 #include "plant/lsv2/link/link_socket.hpp"

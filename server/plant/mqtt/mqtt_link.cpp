@@ -1,10 +1,6 @@
 #include "plant/mqtt/mqtt_link.hpp"
 
-#include <fmt/format.h>
 #include <mosquitto.h>
-
-#include <algorithm>
-#include <utility>
 
 #include "base/text.hpp"
 

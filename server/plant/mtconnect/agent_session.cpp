@@ -1,9 +1,6 @@
 #include "plant/mtconnect/shdr_adapter.hpp"
 
-#include <fmt/format.h>
-
 #include <boost/asio/write.hpp>
-#include <utility>
 
 namespace fitgauge::mtconnect {
 namespace {

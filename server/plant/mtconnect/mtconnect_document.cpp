@@ -1,10 +1,5 @@
 #include "plant/mtconnect/mtconnect_document.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <charconv>
-
 #include "base/length.hpp"
 #include "base/text.hpp"
 

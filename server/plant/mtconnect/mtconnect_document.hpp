@@ -1,14 +1,6 @@
 #pragma once
 
-#include <array>
-#include <atomic>
 #include <bitset>
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "api/services.hpp"
 #include "base/result.hpp"

@@ -1,12 +1,5 @@
 #include "plant/mtconnect/mtconnect_document.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <optional>
-#include <utility>
-#include <vector>
-
 #include "base/text.hpp"
 
 namespace fitgauge::mtconnect {

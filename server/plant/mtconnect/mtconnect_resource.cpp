@@ -1,10 +1,5 @@
 #include "plant/mtconnect/mtconnect_resource.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <memory>
-
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_file.hpp"
 #include "plant/mtconnect/mtconnect_document.hpp"

@@ -1,12 +1,5 @@
 #include "plant/mtconnect/mtconnect_document.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <cstdlib>
-#include <mutex>
-#include <utility>
-
 #include "api/handlers.hpp"
 #include "http/response.hpp"
 #include "service/log/log_service.hpp"

@@ -1,12 +1,6 @@
 #include "plant/mtconnect/shdr_adapter.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <atomic>
 #include <boost/asio/ip/address.hpp>
-#include <set>
-#include <utility>
 
 #include "base/text.hpp"
 #include "base/thread.hpp"

@@ -1,14 +1,5 @@
 #pragma once
 
-#include <chrono>
-#include <cstddef>
-#include <cstdint>
-#include <deque>
-#include <functional>
-#include <memory>
-#include <string>
-#include <string_view>
-
 #include "base/clock.hpp"
 #include "http/engine/asio.hpp"
 #include "http/server.hpp"

@@ -1,12 +1,6 @@
 #include "plant/sparkplug/edge_node.hpp"
 
-#include <fmt/format.h>
 #include <sparkplug/sparkplug_wire.pb.h>
-
-#include <algorithm>
-#include <charconv>
-#include <iterator>
-#include <utility>
 
 #include "base/json/json_value.hpp"
 

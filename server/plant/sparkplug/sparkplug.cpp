@@ -1,9 +1,5 @@
 #include "plant/sparkplug/edge_node.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "plant/kind.hpp"
 #include "plant/mqtt/mqtt_link.hpp"
 

@@ -1,7 +1,5 @@
 #include "plant/virtual_control/virtual_control.hpp"
 
-#include <algorithm>
-
 #include "base/text.hpp"
 #include "plant/lsv2/link/requests.hpp"
 #include "plant/virtual_control/virtual_disk.hpp"

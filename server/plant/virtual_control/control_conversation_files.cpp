@@ -1,7 +1,5 @@
 // The part of a session for directories and files, and their transfers.
 
-#include <algorithm>
-
 #include "base/text.hpp"
 #include "plant/virtual_control/virtual_control.hpp"
 #include "plant/virtual_control/virtual_disk.hpp"

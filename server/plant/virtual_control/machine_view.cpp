@@ -1,7 +1,5 @@
 #include "plant/virtual_control/virtual_disk.hpp"
 
-#include <fmt/format.h>
-
 #include "plant/lsv2/link/payload.hpp"
 
 namespace fitgauge::virtual_control {

@@ -1,7 +1,5 @@
 #include "plant/virtual_control/virtual_control.hpp"
 
-#include <fmt/format.h>
-
 #include "base/thread.hpp"
 
 namespace fitgauge::virtual_control {

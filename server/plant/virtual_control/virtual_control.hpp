@@ -1,19 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <functional>
-#include <initializer_list>
-#include <map>
-#include <memory>
-#include <optional>
-#include <set>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <variant>
-#include <vector>
-
 #include "plant/lsv2/link/answers.hpp"
 #include "plant/lsv2/link/link_server.hpp"
 #include "plant/lsv2/link/requests.hpp"

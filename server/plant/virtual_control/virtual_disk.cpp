@@ -1,7 +1,5 @@
 #include "plant/virtual_control/virtual_disk.hpp"
 
-#include <algorithm>
-
 #include "base/text.hpp"
 #include "base/thread.hpp"
 

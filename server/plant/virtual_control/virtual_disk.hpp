@@ -1,14 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <memory>
-#include <set>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "nc/machine/machine_setup.hpp"
 #include "nc/program/control_disk.hpp"
 #include "plant/lsv2/link/answers.hpp"

@@ -1,9 +1,5 @@
 #include "plant/webhook/body_template.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/text.hpp"

@@ -1,11 +1,7 @@
 #include "plant/webhook/body_template.hpp"
 
-#include <fmt/format.h>
 #include <openssl/evp.h>
 #include <openssl/hmac.h>
-
-#include <algorithm>
-#include <array>
 
 #include "base/digest.hpp"
 #include "base/json/json_writer.hpp"

@@ -1,9 +1,5 @@
 #include "service/documents/document_service.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "base/json/json_value.hpp"
 #include "base/thread.hpp"
 #include "db/store/database.hpp"

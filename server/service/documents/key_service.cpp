@@ -1,11 +1,5 @@
 #include "service/documents/key_service.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <chrono>
-#include <utility>
-
 #include "base/json/json_writer.hpp"
 #include "base/text.hpp"
 #include "db/store/database.hpp"

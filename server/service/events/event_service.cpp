@@ -1,11 +1,5 @@
 #include "service/events/event_service.hpp"
 
-#include <fmt/format.h>
-
-#include <charconv>
-#include <chrono>
-#include <utility>
-
 #include "db/store/database.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/tables/table_catalog.hpp"

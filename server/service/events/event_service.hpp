@@ -1,18 +1,5 @@
 #pragma once
 
-#include <compare>
-#include <condition_variable>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "base/thread.hpp"
 #include "record/measurement.hpp"
 #include "record/origins.hpp"

@@ -1,7 +1,5 @@
 #include "service/files/file_service.hpp"
 
-#include <utility>
-
 #include "base/text.hpp"
 #include "db/store/database.hpp"
 #include "db/store/stores.hpp"

@@ -1,11 +1,5 @@
 #include "service/log/batch_text.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <charconv>
-#include <utility>
-
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
 #include "record/note.hpp"

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <string_view>
-
 #include "base/json/text_arena.hpp"
 #include "base/result.hpp"
 #include "service/log/log_intake.hpp"

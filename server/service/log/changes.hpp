@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-
 #include "base/json/json_value.hpp"
 #include "db/store/stores.hpp"
 

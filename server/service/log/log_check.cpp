@@ -1,7 +1,5 @@
 #include "service/log/log_check.hpp"
 
-#include <fmt/format.h>
-
 #include "base/digest.hpp"
 #include "db/store/database.hpp"
 #include "service/log/changes.hpp"

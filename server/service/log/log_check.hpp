@@ -1,13 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "db/store/open_options.hpp"
 #include "proof/frontier.hpp"
 #include "service/log/leaf.hpp"

@@ -1,11 +1,5 @@
 #include "service/log/log_intake.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <set>
-#include <utility>
-
 #include "db/store/database.hpp"
 #include "service/log/leaf.hpp"
 #include "service/log/log_keys.hpp"

@@ -1,11 +1,6 @@
 #include "service/log/log_keys.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <fstream>
-#include <iterator>
-#include <system_error>
 
 #include "base/digest.hpp"
 #include "base/regular_file.hpp"

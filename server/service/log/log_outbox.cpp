@@ -1,8 +1,5 @@
 #include "service/log/log_outbox.hpp"
 
-#include <algorithm>
-#include <limits>
-
 #include "db/store/database.hpp"
 #include "record/note.hpp"
 #include "record/record.hpp"

@@ -1,9 +1,4 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <iterator>
 #include <sstream>
-#include <utility>
 
 #include "base/number.hpp"
 #include "base/thread.hpp"

@@ -1,9 +1,5 @@
 #include "service/log/log_reader.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "record/record.hpp"
 #include "service/log/changes.hpp"
 

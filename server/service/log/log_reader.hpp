@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <limits>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "db/store/stores.hpp"
 #include "proof/frontier.hpp"
 #include "service/log/leaf.hpp"

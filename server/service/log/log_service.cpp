@@ -1,11 +1,5 @@
 #include "service/log/log_service.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <limits>
-#include <utility>
-
 #include "base/digest.hpp"
 #include "db/store/database.hpp"
 #include "db/store/stores.hpp"

@@ -1,11 +1,5 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
 #include <filesystem>
 #include <random>
-#include <thread>
-#include <utility>
 
 #include "db/store/database.hpp"
 #include "proof/note.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <string>
-#include <string_view>
-
 #include "base/json/text_arena.hpp"
 #include "base/result.hpp"
 #include "service/revisions/revision_feed.hpp"

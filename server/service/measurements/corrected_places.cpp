@@ -1,7 +1,5 @@
 #include "service/measurements/corrected_places.hpp"
 
-#include <algorithm>
-
 namespace fitgauge::app {
 
 void CorrectedPlaces::add(std::int64_t id, std::int64_t correction_of) {

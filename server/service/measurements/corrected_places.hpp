@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
 namespace fitgauge::app {
 
 /// A move of the value that was read as number `from`: to the place before the value that was read

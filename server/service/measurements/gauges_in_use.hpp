@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <mutex>
-
 #include "base/result.hpp"
 #include "base/thread.hpp"
 #include "record/measurement_batch.hpp"

@@ -1,8 +1,5 @@
 #include "service/measurements/mapping.hpp"
 
-#include <map>
-#include <utility>
-
 #include "record/origins.hpp"
 #include "record/verdict_codec.hpp"
 #include "service/tables/table_catalog.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <string_view>
-
 #include "db/store/keys_store.hpp"
 #include "db/store/measurement_row.hpp"
 #include "db/store/tables_store.hpp"

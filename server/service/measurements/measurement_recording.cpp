@@ -1,17 +1,3 @@
-#include <fmt/format.h>
-
-#include <condition_variable>
-#include <cstddef>
-#include <cstdint>
-#include <deque>
-#include <exception>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <span>
-#include <utility>
-#include <vector>
-
 #include "base/thread.hpp"
 #include "db/store/database.hpp"
 #include "db/store/measurement_row.hpp"

@@ -1,7 +1,5 @@
 #include "service/measurements/measurement_service.hpp"
 
-#include <algorithm>
-
 #include "db/store/database.hpp"
 #include "record/origins.hpp"
 #include "service/measurements/mapping.hpp"

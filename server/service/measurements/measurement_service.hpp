@@ -1,16 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "db/store/keys_store.hpp"
 #include "db/store/measurement_index.hpp"
 #include "db/store/measurement_row.hpp"

@@ -1,9 +1,5 @@
 #include "service/measurements/measurement_storage.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "record/note.hpp"
 #include "record/origins.hpp"
 #include "service/measurements/mapping.hpp"

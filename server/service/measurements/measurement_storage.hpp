@@ -1,13 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "db/store/stores.hpp"
 #include "record/measurement.hpp"
 #include "service/log/leaf.hpp"

@@ -1,13 +1,5 @@
 #include "service/measurements/uncertainty_budget.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <set>
-#include <utility>
-
 #include "metrology/statistics/model.hpp"
 
 namespace fitgauge::api {

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "base/json/body_forms.hpp"
 #include "base/result.hpp"
 #include "metrology/statistics/uncertainty.hpp"

@@ -1,10 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <utility>
-
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/probing/touch/fits.hpp"
 #include "nc/program/linker.hpp"

@@ -1,10 +1,5 @@
 #include "service/qualification/qualification.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "base/digest.hpp"

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <initializer_list>
-#include <map>
-#include <string>
-#include <vector>
-
 #include "base/clock.hpp"
 #include "proof/note_key.hpp"
 #include "tables/iso286/tolerance_tables.hpp"

@@ -1,7 +1,3 @@
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "metrology/gauging/conformance.hpp"
 #include "metrology/gauging/gauge.hpp"
 #include "metrology/statistics/capability.hpp"

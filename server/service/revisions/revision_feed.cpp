@@ -1,9 +1,5 @@
 #include "service/revisions/revision_feed.hpp"
 
-#include <algorithm>
-#include <charconv>
-#include <utility>
-
 #include "db/store/database.hpp"
 #include "record/origins.hpp"
 #include "record/record.hpp"

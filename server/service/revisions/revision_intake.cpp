@@ -1,10 +1,5 @@
 #include "service/revisions/revision_intake.hpp"
 
-#include <fmt/format.h>
-
-#include <utility>
-#include <vector>
-
 #include "db/store/database.hpp"
 #include "proof/frontier.hpp"
 #include "record/origins.hpp"

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <set>
-#include <string>
-#include <string_view>
-
 #include "base/result.hpp"
 #include "service/revisions/revision_feed.hpp"
 

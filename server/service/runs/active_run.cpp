@@ -1,7 +1,5 @@
 #include "service/runs/active_run.hpp"
 
-#include <algorithm>
-
 #include "db/store/database.hpp"
 
 namespace fitgauge::app {

@@ -1,9 +1,5 @@
 #include "service/runs/control_files.hpp"
 
-#include <fmt/format.h>
-
-#include <utility>
-
 #include "nc/machine/stl_file.hpp"
 #include "service/tables/table_catalog.hpp"
 #include "tables/tabfile/iso286_projection.hpp"

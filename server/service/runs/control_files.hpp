@@ -1,13 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
-#include <memory>
-#include <mutex>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "nc/machine/machine_setup.hpp"
 #include "nc/program/control_disk.hpp"
 #include "tables/iso286/tolerance_tables.hpp"

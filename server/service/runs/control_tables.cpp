@@ -1,17 +1,5 @@
 #include "service/runs/control_tables.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <string_view>
-#include <utility>
-
 #include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::app {

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "base/allowance.hpp"
 #include "nc/machine/machine_setup.hpp"
 #include "nc/program/control_disk.hpp"

@@ -1,12 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <charconv>
-#include <chrono>
-#include <string>
-#include <vector>
-
 #include "base/allowance.hpp"
 #include "base/text.hpp"
 #include "db/store/database.hpp"

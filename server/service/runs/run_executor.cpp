@@ -1,10 +1,5 @@
 #include "service/runs/run_executor.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/program/linker.hpp"
 #include "nc/run/call_stack.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "record/measurement.hpp"
 #include "service/runs/active_run.hpp"
 #include "service/runs/stored_run.hpp"

@@ -1,15 +1,5 @@
 #pragma once
 
-#include <array>
-#include <condition_variable>
-#include <functional>
-#include <map>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "base/thread.hpp"
 #include "base/worker_pool.hpp"
 #include "nc/klartext/diagnostic.hpp"

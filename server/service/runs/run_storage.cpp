@@ -1,9 +1,5 @@
 // Runs on their way to the store and back.
 
-#include <chrono>
-#include <set>
-#include <thread>
-
 #include "base/thread.hpp"
 #include "db/store/database.hpp"
 #include "service/measurements/measurement_storage.hpp"

@@ -1,8 +1,5 @@
 #include "service/runs/stored_run.hpp"
 
-#include <array>
-#include <utility>
-
 #include "base/text.hpp"
 #include "db/store/runs_store.hpp"
 

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "base/result.hpp"
 
 namespace fitgauge::store {

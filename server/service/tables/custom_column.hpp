@@ -1,7 +1,6 @@
 #pragma once
 
 #include <concepts>
-#include <vector>
 
 #include "base/json/body_forms.hpp"
 #include "tables/iso286/tolerance_tables.hpp"

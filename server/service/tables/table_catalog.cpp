@@ -1,10 +1,5 @@
 #include "service/tables/table_catalog.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <tuple>
-
 #include "base/json/json_writer.hpp"
 #include "db/store/database.hpp"
 #include "service/documents/document_service.hpp"

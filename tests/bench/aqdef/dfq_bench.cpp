@@ -2,10 +2,7 @@
 // has; with `rows` as CSV of measurements, else as fields alone.
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
-
-#include <string_view>
 
 #include "formats/dfq/measurement_csv.hpp"
 #include "formats/dfq/reader.hpp"

@@ -4,11 +4,7 @@
 
 #include <fmt/core.h>
 
-#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
-#include <string>
-#include <utility>
 
 #include "http/server.hpp"
 

@@ -2,9 +2,7 @@
 // line. Usage: bench_loop [passes] [rounds]
 
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
-#include <string>
 
 #include "nc/machine/machine_setup.hpp"
 #include "nc/machine/simulated_machine.hpp"

@@ -6,16 +6,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <fmt/format.h>
-#include <algorithm>
-#include <array>
-#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <string>
-#include <vector>
 
 #include "nc/klartext/parser.hpp"
 

@@ -2,12 +2,8 @@
 // positioning, circle fit and status. Prints contacts per second of CPU time, the median of the
 // rounds. Usage: bench_probing [cycles] [rounds]
 
-#include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
-#include <string>
-#include <vector>
 
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/program/linker.hpp"

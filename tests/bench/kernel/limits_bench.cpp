@@ -6,12 +6,7 @@
 #include <sqlite3.h>
 
 #include <cstdio>
-#include <cstdlib>
-#include <map>
-#include <memory>
 #include <random>
-#include <string>
-#include <vector>
 
 #include "tables/iso286/tolerance_tables.hpp"
 

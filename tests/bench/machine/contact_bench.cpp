@@ -3,11 +3,8 @@
 // processor and their ratio, medians of interleaved rounds; exits with 1 below three times as many.
 // Usage: bench_contact [rounds]
 
-#include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
-#include <vector>
 
 #include "nc/machine/random.hpp"
 #include "nc/machine/workpiece.hpp"

@@ -3,11 +3,8 @@
 // rounds. A probe is compared with a search through all triangles in the same run. Exits with 1
 // when it misses what is asked: 3 s, 50 us. Usage: bench_mesh [rounds]
 
-#include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
-#include <limits>
 
 #include "nc/machine/random.hpp"
 #include "nc/machine/stl_file.hpp"

@@ -4,13 +4,10 @@
 // Quote the ratio; the times depend on the machine.
 
 #include <benchmark/benchmark.h>
-#include <fmt/format.h>
 #include <time.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "api/measurements/measurement_posting.hpp"
 #include "http/request.hpp"

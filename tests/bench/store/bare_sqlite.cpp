@@ -2,11 +2,7 @@
 
 #include <sqlite3.h>
 
-#include <chrono>
 #include <cstdio>
-#include <cstdlib>
-#include <optional>
-#include <string_view>
 
 namespace fitgauge::bench {
 namespace {

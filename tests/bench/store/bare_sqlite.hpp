@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <span>
 
 #include "db/store/measurement_row.hpp"
 

@@ -3,15 +3,9 @@
 //   singles  64 threads, each waiting until its row is durable, against a commit for every row
 // Prints the median of the rounds' ratios; absolute times move with the machine.
 
-#include <fmt/format.h>
 #include <stdlib.h>
 
-#include <algorithm>
-#include <chrono>
 #include <filesystem>
-#include <string>
-#include <thread>
-#include <vector>
 
 #include "bare_sqlite.hpp"
 #include "db/store/database.hpp"

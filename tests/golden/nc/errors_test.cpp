@@ -1,11 +1,7 @@
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <map>
-#include <set>
 #include <sstream>
 
 #include "base/text.hpp"

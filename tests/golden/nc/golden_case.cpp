@@ -1,9 +1,6 @@
 #include "golden_case.hpp"
 
-#include <fmt/format.h>
-
 #include <fstream>
-#include <iterator>
 
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/program/check.hpp"

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "golden_setup.hpp"
 #include "nc/klartext/diagnostic.hpp"

@@ -1,8 +1,6 @@
 #include "golden_setup.hpp"
 
 #include <sstream>
-#include <stdexcept>
-#include <vector>
 
 #include "base/text.hpp"
 

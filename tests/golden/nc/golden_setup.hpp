@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "nc/machine/machine_setup.hpp"
 #include "nc/run/interpreter.hpp"
 

@@ -1,12 +1,8 @@
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <regex>
-#include <set>
 
 #include "golden_case.hpp"
 #include "nc/iso/parser.hpp"

@@ -1,14 +1,11 @@
 #include "linuxcnc_axes.hpp"
 
-#include <fmt/format.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
 
-#include <cstring>
 #include <sstream>
-#include <stdexcept>
 
 namespace fitgauge::peers {
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "nc/machine/axes.hpp"
 
 namespace fitgauge::peers {

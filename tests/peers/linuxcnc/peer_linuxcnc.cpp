@@ -2,10 +2,7 @@
 // Usage: peer_linuxcnc SOCKET SECONDS; `run` beside it does all of it.
 
 #include <cstdio>
-#include <cstdlib>
-#include <exception>
 #include <fstream>
-#include <iterator>
 
 #include "linuxcnc_axes.hpp"
 #include "nc/machine/control.hpp"

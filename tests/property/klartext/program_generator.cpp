@@ -1,9 +1,5 @@
 #include "program_generator.hpp"
 
-#include <map>
-#include <stdexcept>
-#include <vector>
-
 namespace fitgauge::klartext {
 namespace {
 

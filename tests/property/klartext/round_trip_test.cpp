@@ -2,9 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <random>
-#include <string>
 
 #include "nc/iso/parser.hpp"
 #include "nc/iso/printer.hpp"

@@ -2,11 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdint>
-#include <limits>
-#include <string>
-#include <vector>
-
 #include "base/json/json_writer.hpp"
 #include "record/record.hpp"
 #include "service/log/leaf.hpp"

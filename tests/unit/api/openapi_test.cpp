@@ -2,9 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <set>
-
 #include "api/runs/setup_codec.hpp"
 #include "base/json/json_value.hpp"
 

@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <limits>
-
 #include "api/runs/run_posting.hpp"
 #include "base/json/json_value.hpp"
 #include "service/runs/stored_run.hpp"

@@ -2,10 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <string>
-#include <utility>
-#include <vector>
-
 using namespace fitgauge;
 using namespace fitgauge::api;
 

@@ -2,12 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <map>
-#include <memory>
-#include <string>
-#include <thread>
-#include <vector>
-
 namespace fitgauge {
 namespace {
 

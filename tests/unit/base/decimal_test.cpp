@@ -2,10 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdint>
-#include <limits>
 #include <random>
-#include <string>
 
 using namespace fitgauge;
 

@@ -1,9 +1,6 @@
 
 #include <doctest/doctest.h>
 
-#include <set>
-#include <string>
-
 #include "base/result.hpp"
 
 using namespace fitgauge;

@@ -4,9 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include <array>
 #include <fstream>
-#include <set>
 
 using namespace fitgauge;
 

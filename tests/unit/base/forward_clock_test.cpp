@@ -2,9 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <chrono>
-#include <vector>
-
 using namespace fitgauge;
 using namespace std::chrono_literals;
 

@@ -2,9 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <stdexcept>
-#include <string>
-
 using namespace fitgauge;
 
 namespace {

@@ -4,8 +4,6 @@
 #include <zlib.h>
 
 #include <random>
-#include <string>
-#include <vector>
 
 namespace fitgauge {
 namespace {

@@ -4,10 +4,6 @@
 
 #include <future>
 #include <latch>
-#include <memory>
-#include <stdexcept>
-#include <thread>
-#include <vector>
 
 namespace fitgauge {
 namespace {

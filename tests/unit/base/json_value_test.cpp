@@ -1,7 +1,6 @@
 #include "base/json/json_value.hpp"
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 using namespace fitgauge;
 

@@ -2,9 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <limits>
-
 using namespace fitgauge;
 
 TEST_CASE("a length of 1 mm is a million nanometres") {

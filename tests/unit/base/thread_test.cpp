@@ -3,12 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <pthread.h>
-#include <array>
-#include <atomic>
 #include <future>
-#include <stdexcept>
-#include <string>
-#include <utility>
 
 using namespace fitgauge;
 

@@ -2,14 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include <atomic>
-#include <chrono>
 #include <fstream>
 #include <future>
-#include <memory>
-#include <stdexcept>
-#include <thread>
-#include <vector>
 
 namespace fitgauge {
 namespace {

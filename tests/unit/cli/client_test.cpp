@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <vector>
-
 #include "cli/address.hpp"
 #include "cli/http_client.hpp"
 #include "cli/json_object.hpp"

@@ -1,11 +1,8 @@
 #include "cli/csv_chunks.hpp"
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <random>
-#include <vector>
 
 using namespace fitgauge::cli;
 

@@ -2,9 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <array>
-
 using namespace fitgauge;
 using namespace fitgauge::cli;
 

@@ -7,8 +7,6 @@
 #include <unistd.h>
 
 #include <sstream>
-#include <string>
-#include <thread>
 
 using namespace fitgauge::daemon;
 using std::chrono::seconds;

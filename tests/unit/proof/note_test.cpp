@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <string>
-
 #include "base/digest.hpp"
 #include "proof/note.hpp"
 

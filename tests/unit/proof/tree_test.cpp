@@ -1,10 +1,6 @@
 #include <doctest/doctest.h>
 
-#include <array>
-#include <map>
 #include <random>
-#include <string>
-#include <vector>
 
 #include "proof/frontier.hpp"
 

@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <limits>
-
 #include "base/csv.hpp"
 #include "record/record.hpp"
 #include "tables/iso286/table_data.hpp"

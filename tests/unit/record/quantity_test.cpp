@@ -1,8 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <string>
-#include <vector>
-
 #include "record/measurement_batch.hpp"
 #include "record/record.hpp"
 #include "tables/iso286/table_data.hpp"

@@ -1,9 +1,5 @@
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
-
-#include <string>
-#include <vector>
 
 #include "record/record.hpp"
 

@@ -4,10 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include <array>
-#include <cstdlib>
 #include <fstream>
-#include <iterator>
 
 #include "service/runs/control_files.hpp"
 #include "service/runs/run_executor.hpp"

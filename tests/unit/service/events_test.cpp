@@ -1,11 +1,7 @@
 #include <doctest/doctest.h>
 
-#include <atomic>
-#include <functional>
 #include <future>
 #include <latch>
-#include <optional>
-#include <string>
 
 #include "service_fixture.hpp"
 

@@ -1,13 +1,7 @@
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
-#include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <future>
-#include <stdexcept>
-#include <thread>
-#include <utility>
 
 #include "service/log/log_keys.hpp"
 #include "service/log/log_service.hpp"

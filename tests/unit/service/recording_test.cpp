@@ -1,11 +1,7 @@
 #include <doctest/doctest.h>
 
-#include <atomic>
-#include <chrono>
 #include <ctime>
 #include <latch>
-#include <stdexcept>
-#include <thread>
 
 #include "record/record.hpp"
 #include "service_fixture.hpp"

@@ -1,7 +1,3 @@
-#include <array>
-#include <stdexcept>
-#include <thread>
-
 #include "nc/program/linker.hpp"
 #include "service/runs/run_executor.hpp"
 #include "service_fixture.hpp"

@@ -3,15 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <unistd.h>
-#include <atomic>
 #include <filesystem>
 #include <future>
-#include <map>
-#include <memory>
-#include <mutex>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "service/application.hpp"
 

@@ -3,8 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <future>
-#include <stdexcept>
-#include <string>
 
 #include "base/thread.hpp"
 #include "db/store/database.hpp"

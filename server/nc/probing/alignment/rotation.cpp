@@ -1,10 +1,5 @@
 #include "nc/probing/alignment/rotation.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <string>
-
 #include "nc/probing/measured_value.hpp"
 
 namespace fitgauge::probing {

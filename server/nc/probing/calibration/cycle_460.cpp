@@ -1,6 +1,3 @@
-#include <array>
-#include <cmath>
-
 #include "nc/probing/calibration/probe_calibration.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"

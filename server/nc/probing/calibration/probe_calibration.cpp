@@ -1,7 +1,5 @@
 #include "nc/probing/calibration/probe_calibration.hpp"
 
-#include <fmt/format.h>
-
 #include "base/length.hpp"
 #include "log_templates.hpp"
 #include "nc/machine/tables.hpp"

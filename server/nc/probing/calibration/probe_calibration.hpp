@@ -1,9 +1,5 @@
 #pragma once
 
-#include <array>
-#include <functional>
-#include <optional>
-
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
 

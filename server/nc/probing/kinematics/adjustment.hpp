@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-
 #include "nc/probing/kinematics/fit.hpp"
 #include "nc/probing/touch/gauss_newton.hpp"
 

@@ -1,9 +1,5 @@
 #include "nc/probing/kinematics/correction.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 

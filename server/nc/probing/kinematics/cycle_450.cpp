@@ -1,8 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-
 #include "base/text.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"

@@ -1,5 +1,3 @@
-#include <array>
-
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"
 #include "nc/probing/kinematics/log.hpp"

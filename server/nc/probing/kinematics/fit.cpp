@@ -1,10 +1,5 @@
 #include "nc/probing/kinematics/fit.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <utility>
-
 #include "metrology/statistics/summary.hpp"
 #include "nc/machine/tolerance.hpp"
 #include "nc/probing/kinematics/adjustment.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <span>
-#include <vector>
-
 #include "nc/machine/kinematics.hpp"
 
 namespace fitgauge::probing {

@@ -1,11 +1,5 @@
 #include "nc/probing/kinematics/log.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <string>
-#include <vector>
-
 #include "log_templates.hpp"
 #include "nc/probing/log/measuring_log.hpp"
 #include "nc/probing/measured_value.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string_view>
-
 #include "nc/probing/kinematics/measurement.hpp"
 
 namespace fitgauge::probing {

@@ -1,13 +1,5 @@
 #include "nc/probing/kinematics/measurement.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <utility>
-
 #include "nc/machine/tolerance.hpp"
 #include "nc/probing/measured_value.hpp"
 

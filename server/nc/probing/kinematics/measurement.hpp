@@ -1,10 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <span>
-#include <string_view>
-#include <vector>
-
 #include "nc/machine/machine_state.hpp"
 #include "nc/probing/arguments.hpp"
 #include "nc/probing/kinematics/probing.hpp"

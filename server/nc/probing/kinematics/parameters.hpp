@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "nc/probing/parameters.hpp"
 
 /// The parameters and results that cycles 451 to 453 share.

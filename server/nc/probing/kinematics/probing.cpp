@@ -1,9 +1,5 @@
 #include "nc/probing/kinematics/probing.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 namespace fitgauge::probing {
 namespace {
 

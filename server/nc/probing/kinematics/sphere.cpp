@@ -1,11 +1,5 @@
 #include "nc/probing/kinematics/sphere.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "nc/probing/touch/fits.hpp"
 
 namespace fitgauge::probing {

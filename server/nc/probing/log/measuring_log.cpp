@@ -1,10 +1,5 @@
 #include "nc/probing/log/measuring_log.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <utility>
-
 #include "log_templates.hpp"
 #include "nc/probing/touch_probe_cycle.hpp"
 

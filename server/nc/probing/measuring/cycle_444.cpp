@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "nc/machine/tolerance.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"

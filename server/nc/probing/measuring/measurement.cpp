@@ -1,10 +1,5 @@
 #include "nc/probing/measuring/measurement.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "metrology/gauging/severity.hpp"
 #include "nc/probing/alignment/rotation.hpp"
 #include "nc/probing/log/measuring_log.hpp"

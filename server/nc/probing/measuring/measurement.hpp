@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <vector>
-
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
 #include "nc/probing/touch/probing_motion.hpp"

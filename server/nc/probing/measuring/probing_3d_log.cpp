@@ -1,9 +1,5 @@
 #include "nc/probing/measuring/probing_3d_log.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "base/length.hpp"
 #include "log_templates.hpp"
 #include "nc/probing/log/measuring_log.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <optional>
-
 #include "nc/probing/cycle_fault.hpp"
 #include "nc/probing/cycle_host.hpp"
 #include "nc/probing/measuring_record.hpp"

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/object/object_cycle.hpp"
 #include "nc/probing/touch/part_here.hpp"

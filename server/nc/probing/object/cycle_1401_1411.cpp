@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/measuring/measurement.hpp"
 #include "nc/probing/object/object_cycle.hpp"

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "nc/machine/tolerance.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/object/object_cycle.hpp"

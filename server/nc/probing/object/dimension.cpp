@@ -1,10 +1,5 @@
 #include "nc/probing/object/dimension.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <string>
-
 #include "tables/iso286/table_data.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
 #include "tables/standards/designated_limits.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string_view>
-
 #include "nc/probing/cycle_fault.hpp"
 #include "nc/probing/measuring_record.hpp"
 

@@ -1,11 +1,5 @@
 #include "nc/probing/object/object_cycle.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "log_templates.hpp"
 #include "nc/machine/tolerance.hpp"
 #include "nc/probing/alignment/rotation.hpp"

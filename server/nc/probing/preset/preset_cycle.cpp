@@ -1,7 +1,5 @@
 #include "nc/probing/preset/preset_cycle.hpp"
 
-#include <cmath>
-
 #include "nc/probing/alignment/rotation.hpp"
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/touch/line_probing.hpp"

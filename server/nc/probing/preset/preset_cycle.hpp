@@ -1,9 +1,5 @@
 #pragma once
 
-#include <array>
-#include <optional>
-#include <span>
-
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
 #include "nc/probing/touch/fits.hpp"

@@ -1,10 +1,5 @@
 #include "nc/probing/tool/tool_measuring.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "nc/machine/tolerance.hpp"
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/touch/probing_motion.hpp"

@@ -1,7 +1,5 @@
 #include "nc/probing/touch/circle_probing.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <ranges>
 
 #include "nc/probing/measured_value.hpp"

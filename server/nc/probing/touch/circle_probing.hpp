@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "nc/probing/measuring_record.hpp"
 #include "nc/probing/touch/fits.hpp"
 #include "nc/probing/touch/probing_motion.hpp"

@@ -1,10 +1,5 @@
 #include "nc/probing/touch/fits.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <vector>
-
 #include "nc/machine/tolerance.hpp"
 #include "nc/probing/touch/gauss_newton.hpp"
 

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <span>
-
 #include "nc/machine/geometry.hpp"
 #include "nc/probing/cycle_fault.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <Eigen/QR>
 #include <Eigen/SVD>
-#include <limits>
 
 namespace fitgauge::probing {
 

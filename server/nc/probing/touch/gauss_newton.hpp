@@ -1,9 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
-#include <initializer_list>
-#include <optional>
 
 namespace fitgauge::probing {
 

@@ -1,8 +1,5 @@
 #include "nc/probing/touch/line_probing.hpp"
 
-#include <array>
-#include <cmath>
-
 #include "nc/machine/tolerance.hpp"
 
 namespace fitgauge::probing {

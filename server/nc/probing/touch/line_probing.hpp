@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "nc/probing/touch/fits.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 

@@ -1,10 +1,5 @@
 #include "nc/probing/touch/part_here.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 namespace fitgauge::probing {
 namespace {
 

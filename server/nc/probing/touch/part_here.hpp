@@ -1,10 +1,5 @@
 #pragma once
 
-#include <array>
-#include <optional>
-#include <span>
-#include <string>
-
 #include "nc/probing/touch/circle_probing.hpp"
 
 namespace fitgauge::probing {

@@ -1,9 +1,5 @@
 #include "nc/probing/touch/probing_motion.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "nc/probing/measured_value.hpp"
 
 namespace fitgauge::probing {

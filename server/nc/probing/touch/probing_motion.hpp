@@ -1,11 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <span>
-#include <type_traits>
-#include <utility>
-#include <vector>
-
 #include "nc/machine/machine.hpp"
 #include "nc/probing/touch_probe_cycle.hpp"
 #include "nc/probing/working_plane.hpp"

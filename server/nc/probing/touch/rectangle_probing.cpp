@@ -1,8 +1,5 @@
 #include "nc/probing/touch/rectangle_probing.hpp"
 
-#include <algorithm>
-#include <array>
-
 #include "nc/probing/touch/part_here.hpp"
 
 namespace fitgauge::probing {

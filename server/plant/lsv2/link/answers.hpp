@@ -1,10 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-
 #include "plant/lsv2/link/requests.hpp"
 
 // Answers of a control, one struct a telegram; with Accepted, EndOfData and FileBlock, which both

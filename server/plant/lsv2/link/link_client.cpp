@@ -1,11 +1,5 @@
 #include "plant/lsv2/link/link_client.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <utility>
-
 namespace fitgauge::control_link {
 namespace {
 

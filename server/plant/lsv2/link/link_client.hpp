@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "plant/lsv2/link/answers.hpp"
 #include "plant/lsv2/link/link_socket.hpp"
 

@@ -1,7 +1,6 @@
 #include "plant/lsv2/link/link_server.hpp"
 
 #include <arpa/inet.h>
-#include <fmt/format.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -10,12 +9,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstring>
-#include <utility>
-#include <vector>
 
 #include "base/folder.hpp"
 #include "base/thread.hpp"

@@ -1,18 +1,12 @@
 #include "plant/lsv2/link/link_socket.hpp"
 
-#include <fmt/format.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
-#include <charconv>
-#include <cstring>
-#include <memory>
 
 namespace fitgauge::control_link {
 namespace {

@@ -1,15 +1,5 @@
 #pragma once
 
-#include <boost/system/result.hpp>
-#include <chrono>
-#include <cstdint>
-#include <optional>
-#include <stdexcept>
-#include <stop_token>
-#include <string>
-#include <string_view>
-#include <utility>
-
 #include "base/folder.hpp"
 #include "plant/lsv2/link/payload.hpp"
 

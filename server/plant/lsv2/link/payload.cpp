@@ -1,7 +1,5 @@
 #include "plant/lsv2/link/payload.hpp"
 
-#include <bit>
-
 namespace fitgauge::control_link {
 namespace {
 

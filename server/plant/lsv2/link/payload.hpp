@@ -1,16 +1,6 @@
 #pragma once
 
-#include <array>
-#include <boost/system/result.hpp>
 #include <concepts>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 namespace fitgauge::control_link {
 

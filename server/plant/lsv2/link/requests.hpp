@@ -1,12 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <tuple>
-#include <variant>
-
 #include "plant/lsv2/link/payload.hpp"
 
 namespace fitgauge::control_link {

@@ -1,10 +1,8 @@
 #include "engine.hpp"
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 #include <stdlib.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "db/postgres/connection.hpp"

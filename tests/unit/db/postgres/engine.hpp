@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "base/clock.hpp"
 #include "db/store/database.hpp"
 #include "db/store/open_options.hpp"

@@ -1,9 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <chrono>
-#include <set>
-#include <thread>
-
 #include "db/postgres/connection.hpp"
 #include "db/postgres/listener.hpp"
 #include "fixture.hpp"

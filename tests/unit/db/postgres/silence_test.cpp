@@ -1,9 +1,6 @@
 #include <doctest/doctest.h>
 #include <signal.h>
 
-#include <array>
-#include <cstddef>
-
 #include "db/postgres/connection.hpp"
 #include "fixture.hpp"
 

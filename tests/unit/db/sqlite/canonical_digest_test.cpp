@@ -2,9 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <limits>
-#include <set>
-
 using namespace fitgauge;
 using namespace fitgauge::store;
 

@@ -1,7 +1,6 @@
 #include "db/sqlite/upkeep.hpp"
 
 #include <filesystem>
-#include <string>
 
 #include "fixture.hpp"
 

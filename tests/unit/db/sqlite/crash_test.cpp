@@ -3,8 +3,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <vector>
-
 #include "db/sqlite/connection.hpp"
 #include "db/sqlite/database_file.hpp"
 #include "fixture.hpp"

@@ -2,9 +2,6 @@
 
 #include <unistd.h>
 
-#include <thread>
-#include <vector>
-
 #include <sys/stat.h>
 
 #include "db/sqlite/connection.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "db/sql/sealed_table.hpp"
 #include "db/sqlite/connection.hpp"
 #include "db/store/database.hpp"

@@ -1,11 +1,5 @@
 // verify finds a changed value wherever it stands: every column of every table in turn.
 
-#include <fmt/format.h>
-
-#include <map>
-#include <string>
-#include <utility>
-
 #include "db/sql/statement.hpp"
 #include "db/sqlite/connection.hpp"
 #include "fixture.hpp"

@@ -1,6 +1,4 @@
 
-#include <vector>
-
 #include "db/sqlite/database_file.hpp"
 #include "db/store/stores.hpp"
 #include "fixture.hpp"

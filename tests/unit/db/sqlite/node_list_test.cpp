@@ -2,9 +2,6 @@
 // this one is made up, and says other things than its rows, so that it shows where it was believed.
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
-
-#include <vector>
 
 #include "db/sql/index_nodes.hpp"
 #include "db/sql/measurement_query.hpp"

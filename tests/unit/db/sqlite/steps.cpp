@@ -4,8 +4,6 @@
 #include <fcntl.h>
 #include <stdio.h>
 
-#include <atomic>
-
 namespace fitgauge::store::test {
 namespace {
 

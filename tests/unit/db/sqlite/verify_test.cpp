@@ -1,7 +1,5 @@
 #include "db/store/open_options.hpp"
 
-#include <chrono>
-
 #include "db/sqlite/connection.hpp"
 #include "db/sqlite/database_file.hpp"
 #include "fixture.hpp"

@@ -1,10 +1,6 @@
 #include "db/store/jobs.hpp"
 
 #include <latch>
-#include <mutex>
-#include <stdexcept>
-#include <thread>
-#include <vector>
 
 #include "db/sqlite/connection.hpp"
 #include "fixture.hpp"

@@ -1,5 +1,3 @@
-#include <vector>
-
 #include "fixture.hpp"
 
 using namespace fitgauge;

@@ -2,12 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include <atomic>
 #include <future>
-#include <memory>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "base/thread.hpp"
 #include "fixture.hpp"

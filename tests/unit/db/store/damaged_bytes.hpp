@@ -2,9 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include <cstddef>
 #include <random>
-#include <string>
 
 namespace fitgauge::store::test {
 

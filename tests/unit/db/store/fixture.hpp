@@ -4,13 +4,8 @@
 
 #include <doctest/doctest.h>
 
-#include <atomic>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "db/store/canonical_digest.hpp"
 #include "db/store/database.hpp"

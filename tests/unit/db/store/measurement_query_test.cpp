@@ -1,9 +1,4 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <map>
 #include <random>
-#include <vector>
 
 #include "db/store/measurement_index.hpp"
 #include "fixture.hpp"

@@ -1,13 +1,6 @@
 #pragma once
 
-#include <algorithm>
-#include <limits>
-#include <map>
-#include <optional>
 #include <random>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "fixture.hpp"
 

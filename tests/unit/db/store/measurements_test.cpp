@@ -1,7 +1,5 @@
 #include "db/store/measurements_store.hpp"
 
-#include <vector>
-
 #include "db/store/measurement_row.hpp"
 #include "fixture.hpp"
 

@@ -2,11 +2,7 @@
 // filter, each field to group by, with verdicts, sources, times and corrections, and with the index
 // in every state it can be in.
 
-#include <fmt/format.h>
-
-#include <map>
 #include <random>
-#include <vector>
 
 #include "db/store/measurement_index.hpp"
 #include "db/store/measurement_statistics.hpp"

@@ -2,10 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <map>
 #include <random>
-#include <set>
 
 #include "damaged_bytes.hpp"
 

@@ -2,11 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <set>
-#include <string>
-#include <vector>
-
 #include "formats/dfq/fields.hpp"
 
 namespace fitgauge::aqdef {

@@ -1,10 +1,6 @@
 #include "formats/dfq/measurement_csv.hpp"
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
-
-#include <string>
-#include <vector>
 
 namespace fitgauge::aqdef {
 namespace {

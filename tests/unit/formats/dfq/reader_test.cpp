@@ -1,10 +1,6 @@
 #include "formats/dfq/reader.hpp"
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
-
-#include <string>
-#include <vector>
 
 #include "formats/dfq/lines.hpp"
 

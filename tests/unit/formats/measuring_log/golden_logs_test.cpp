@@ -1,11 +1,6 @@
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <fstream>
-#include <iterator>
-#include <map>
-#include <string>
 
 #include "formats/measuring_log/measuring_log.hpp"
 

@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <string>
-
 #include "formats/measuring_log/measuring_log.hpp"
 #include "samples.hpp"
 

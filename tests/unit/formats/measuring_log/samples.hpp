@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 // Logs typed by hand: the first with the wording and numbers of the example in HEIDENHAIN's manuals
 // (fundamentals of touch-probe cycles 420 to 431), the German one after the German edition.
 

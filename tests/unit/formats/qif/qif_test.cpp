@@ -1,9 +1,4 @@
 #include <doctest/doctest.h>
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <string>
-#include <utility>
 
 #include "formats/qif/xml_reader.hpp"
 #include "support/qif_text.hpp"

@@ -2,9 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <string>
-#include <string_view>
-
 namespace fitgauge::sheet {
 namespace {
 

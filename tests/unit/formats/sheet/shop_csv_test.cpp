@@ -2,12 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <array>
-#include <span>
-#include <string>
-#include <utility>
-
 namespace fitgauge::sheet {
 namespace {
 

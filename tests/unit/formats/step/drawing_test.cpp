@@ -1,11 +1,8 @@
 #include "formats/step/drawing.hpp"
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include <fstream>
-#include <iterator>
-#include <string>
 
 #include "formats/step/plan.hpp"
 

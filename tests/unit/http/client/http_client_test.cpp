@@ -4,8 +4,6 @@
 #include <doctest/doctest.h>
 #include <netinet/in.h>
 
-#include <string>
-
 namespace fitgauge::http_client {
 namespace {
 

@@ -1,13 +1,6 @@
 // Answers of every kind: asynchronous, prepared, streamed, conditional, failed.
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <chrono>
-#include <mutex>
-#include <stdexcept>
-#include <thread>
 
 #include "http/response.hpp"
 #include "test_server.hpp"

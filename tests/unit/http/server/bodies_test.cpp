@@ -1,7 +1,4 @@
 #include <doctest/doctest.h>
-#include <fmt/format.h>
-
-#include <string>
 
 #include "gzip.hpp"
 #include "test_server.hpp"

@@ -3,9 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include <array>
-#include <memory>
-
 #include "http/response.hpp"
 #include "test_server.hpp"
 

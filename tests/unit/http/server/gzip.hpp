@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <string_view>
-
 namespace fitgauge::http::test {
 
 /// `text` as one gzip member.

@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <string>
-
 #include "test_server.hpp"
 
 using namespace fitgauge;

@@ -1,13 +1,6 @@
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
-#include <array>
-#include <chrono>
 #include <future>
-#include <mutex>
-#include <stdexcept>
-#include <string>
-#include <thread>
 
 #include "base/thread.hpp"
 #include "support/comes_true.hpp"

@@ -1,11 +1,8 @@
 // Time, memory and connections: what a slow, greedy or numerous client can take.
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
-#include <chrono>
 #include <latch>
-#include <thread>
 
 #include "support/comes_true.hpp"
 #include "test_server.hpp"

@@ -2,12 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include <atomic>
-#include <chrono>
 #include <future>
-#include <string>
-#include <thread>
-#include <vector>
 
 #include "support/comes_true.hpp"
 #include "test_server.hpp"

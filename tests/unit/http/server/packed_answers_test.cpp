@@ -1,11 +1,6 @@
 // Answers in gzip: who gets them, their tags, and that they unpack to the same bytes.
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
-
-#include <chrono>
-#include <cstdint>
-#include <memory>
 
 #include "base/gzip.hpp"
 #include "http/field_list.hpp"

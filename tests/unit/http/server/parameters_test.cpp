@@ -1,7 +1,4 @@
 #include <doctest/doctest.h>
-#include <fmt/format.h>
-
-#include <string>
 
 #include "base/clock.hpp"
 #include "test_server.hpp"

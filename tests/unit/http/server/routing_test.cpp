@@ -1,8 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <stdexcept>
-#include <string>
-
 #include "test_server.hpp"
 
 using namespace fitgauge;

@@ -1,12 +1,4 @@
 #include <doctest/doctest.h>
-#include <fmt/format.h>
-
-#include <atomic>
-#include <chrono>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <stdexcept>
 
 #include "http/response.hpp"
 #include "support/comes_true.hpp"

@@ -7,10 +7,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdlib>
-#include <stdexcept>
-
 #include "base/text.hpp"
 
 namespace fitgauge::http::test {

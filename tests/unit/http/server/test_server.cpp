@@ -1,9 +1,5 @@
 #include "test_server.hpp"
 
-#include <fmt/format.h>
-
-#include <stdexcept>
-
 namespace fitgauge::http::test {
 
 TestServer::TestServer(std::vector<Route> routes, ServerOptions options, ServerHooks hooks) {

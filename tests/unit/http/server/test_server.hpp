@@ -1,12 +1,5 @@
 #pragma once
 
-#include <atomic>
-#include <memory>
-#include <mutex>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "http/server.hpp"
 #include "test_client.hpp"
 

@@ -6,9 +6,6 @@
 #include <openssl/x509v3.h>
 
 #include <cstdio>
-#include <cstdlib>
-#include <memory>
-#include <stdexcept>
 
 namespace fitgauge::http::test {
 

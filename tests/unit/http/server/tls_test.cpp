@@ -5,10 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <array>
 #include <fstream>
-#include <memory>
-#include <string>
 
 #include "test_server.hpp"
 #include "tls_files.hpp"

@@ -3,8 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include <string>
-
 #include "test_server.hpp"
 
 using namespace fitgauge;

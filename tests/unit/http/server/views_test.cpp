@@ -2,14 +2,6 @@
 // buffers meanwhile: every form of body with every kind of route. AddressSanitizer sees the reads.
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <functional>
-#include <memory>
-#include <string>
-#include <thread>
 
 #include "gzip.hpp"
 #include "test_server.hpp"

@@ -1,12 +1,6 @@
 #pragma once
 
-#include <condition_variable>
-#include <functional>
-#include <memory>
-#include <mutex>
 #include <queue>
-#include <thread>
-#include <utility>
 
 namespace fitgauge::http::test {
 

@@ -2,9 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <limits>
-
 #include "base/length.hpp"
 
 using namespace fitgauge;

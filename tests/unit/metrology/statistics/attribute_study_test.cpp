@@ -1,9 +1,5 @@
 #include "metrology/statistics/attribute_study.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "support.hpp"
 
 using namespace fitgauge;

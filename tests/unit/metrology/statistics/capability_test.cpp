@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-
 #include "metrology/statistics/capability.hpp"
 #include "metrology/statistics/summary.hpp"
 #include "support.hpp"

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <random>
 
 #include "metrology/statistics/zone_rules.hpp"

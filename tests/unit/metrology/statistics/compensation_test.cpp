@@ -2,11 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include <array>
-#include <cmath>
-#include <functional>
 #include <random>
-#include <vector>
 
 namespace fitgauge::metrology {
 namespace {

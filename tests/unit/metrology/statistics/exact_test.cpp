@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "metrology/statistics/summary.hpp"
 #include "support.hpp"
 

@@ -1,8 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <random>
 
 #include "metrology/statistics/capability.hpp"

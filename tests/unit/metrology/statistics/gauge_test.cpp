@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-
 #include "metrology/statistics/fit_analysis.hpp"
 #include "tables/iso286/table_data.hpp"
 

@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <random>
 
 #include "metrology/statistics/process_model.hpp"

@@ -3,9 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <clocale>
-#include <cmath>
-#include <string>
-#include <vector>
 
 #include "base/allowance.hpp"
 

@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "metrology/statistics/gauge_study.hpp"
 #include "metrology/statistics/measuring_process.hpp"
 #include "support.hpp"

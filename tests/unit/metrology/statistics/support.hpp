@@ -4,7 +4,6 @@
 
 #include <fstream>
 #include <sstream>
-#include <string>
 
 #include "metrology/statistics/control_chart.hpp"
 

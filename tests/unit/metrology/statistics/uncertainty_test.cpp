@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-
 using namespace fitgauge;
 using namespace fitgauge::metrology;
 using doctest::Approx;

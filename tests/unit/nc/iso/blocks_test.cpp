@@ -1,8 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <string>
-#include <string_view>
-
 #include "nc/iso/parser.hpp"
 #include "nc/klartext/printer.hpp"
 

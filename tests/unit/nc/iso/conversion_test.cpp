@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <string>
-
 #include "nc/iso/parser.hpp"
 #include "nc/iso/printer.hpp"
 

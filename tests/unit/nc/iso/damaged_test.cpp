@@ -2,9 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <random>
-#include <string>
 
 #include "nc/iso/parser.hpp"
 #include "nc/klartext/printer.hpp"

@@ -1,9 +1,6 @@
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include <fstream>
-#include <string>
-#include <string_view>
 
 #include "nc/iso/codes.hpp"
 #include "nc/iso/parser.hpp"

@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <vector>
-
 #include "parse_support.hpp"
 
 namespace fitgauge::klartext {

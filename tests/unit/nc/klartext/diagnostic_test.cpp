@@ -2,9 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <set>
-#include <string>
-
 namespace fitgauge::klartext {
 namespace {
 

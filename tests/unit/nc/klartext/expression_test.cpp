@@ -1,9 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-
 #include "parse_support.hpp"
 
 namespace fitgauge::klartext {

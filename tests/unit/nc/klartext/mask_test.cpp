@@ -1,8 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <string>
-#include <vector>
-
 #include "nc/klartext/mask_file.hpp"
 
 namespace fitgauge::klartext {

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <variant>
-
 #include "nc/klartext/parser.hpp"
 #include "nc/klartext/printer.hpp"
 

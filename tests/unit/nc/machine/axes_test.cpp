@@ -2,10 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <memory>
-#include <vector>
-
 #include "nc/machine/control.hpp"
 #include "unit/nc/machine/vec_check.hpp"
 

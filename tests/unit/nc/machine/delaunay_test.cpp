@@ -2,9 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <set>
-
 #include "nc/machine/random.hpp"
 #include "nc/machine/triangle_tree.hpp"
 #include "unit/nc/machine/vec_check.hpp"

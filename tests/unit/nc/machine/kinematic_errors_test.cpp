@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <limits>
-
 #include "nc/machine/simulated_machine.hpp"
 #include "unit/nc/machine/machine_check.hpp"
 #include "unit/nc/machine/vec_check.hpp"

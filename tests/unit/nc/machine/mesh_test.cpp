@@ -1,8 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <limits>
-
 #include "nc/machine/random.hpp"
 #include "nc/machine/stl_file.hpp"
 #include "nc/machine/workpiece.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cmath>
-#include <functional>
-#include <string>
-
 #include "nc/machine/triangle_tree.hpp"
 
 /// Closed meshes whose figures are known, and STL files of them.

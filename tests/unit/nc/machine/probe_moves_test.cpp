@@ -1,8 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <vector>
-
 #include "unit/nc/machine/machine_bench.hpp"
 #include "unit/nc/machine/machine_check.hpp"
 

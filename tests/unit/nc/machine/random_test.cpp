@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-
 using fitgauge::machine::Random;
 
 TEST_CASE("the generator gives the published sequence") {

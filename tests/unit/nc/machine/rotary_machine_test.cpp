@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <cmath>
-
 #include "nc/machine/simulated_machine.hpp"
 #include "unit/nc/machine/machine_check.hpp"
 

@@ -1,8 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <limits>
-
 #include "nc/machine/machine_setup.hpp"
 
 using namespace fitgauge::machine;

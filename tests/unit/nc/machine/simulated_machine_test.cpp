@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <cmath>
-
 #include "unit/nc/machine/machine_bench.hpp"
 #include "unit/nc/machine/machine_check.hpp"
 

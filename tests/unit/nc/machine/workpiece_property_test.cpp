@@ -1,13 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <array>
-#include <chrono>
-#include <cmath>
-#include <iterator>
-#include <optional>
-#include <vector>
-
 #include "nc/machine/random.hpp"
 #include "nc/machine/workpiece.hpp"
 #include "unit/nc/machine/meshes.hpp"

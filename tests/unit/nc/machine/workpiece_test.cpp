@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-
 #include "unit/nc/machine/vec_check.hpp"
 
 using namespace fitgauge::machine;

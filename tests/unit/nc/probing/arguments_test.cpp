@@ -2,9 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <array>
-#include <limits>
-
 namespace fitgauge::probing {
 namespace {
 

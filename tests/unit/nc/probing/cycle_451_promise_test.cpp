@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <algorithm>
-
 #include "kinds.hpp"
 #include "kinematics_bench.hpp"
 #include "nc/machine/random.hpp"

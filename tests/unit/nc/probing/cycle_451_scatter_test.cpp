@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <map>
-
 #include "kinematics_bench.hpp"
 #include "nc/probing/kinematics/measurement.hpp"
 #include "support/deep.hpp"

@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <limits>
-
 #include "kinematics_bench.hpp"
 #include "nc/probing/kinematics/measurement.hpp"
 #include "nc/probing/measured_value.hpp"

@@ -2,10 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <array>
-#include <cmath>
-#include <vector>
-
 namespace fitgauge::probing {
 namespace {
 

@@ -1,9 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <functional>
-#include <string_view>
-
 #include "kinematics_bench.hpp"
 #include "nominal_parts.hpp"
 

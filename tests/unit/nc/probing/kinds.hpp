@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <vector>
-
 #include "nc/machine/kinematics.hpp"
 
 namespace fitgauge::probing {

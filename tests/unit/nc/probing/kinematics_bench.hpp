@@ -1,9 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <string>
-
 #include "probing_bench.hpp"
 
 namespace fitgauge::probing {

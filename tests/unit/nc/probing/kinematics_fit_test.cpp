@@ -2,10 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "kinds.hpp"
 #include "nc/machine/random.hpp"
 #include "support/deep.hpp"

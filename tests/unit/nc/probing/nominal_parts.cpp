@@ -1,7 +1,5 @@
 #include "nominal_parts.hpp"
 
-#include <algorithm>
-
 namespace fitgauge::probing {
 namespace {
 

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <utility>
-#include <vector>
-
 #include "probing_bench.hpp"
 
 namespace fitgauge::probing {

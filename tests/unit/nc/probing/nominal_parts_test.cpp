@@ -1,7 +1,5 @@
 #include "nominal_parts.hpp"
 
-#include <set>
-
 namespace fitgauge::probing {
 
 TEST_CASE("every cycle that touches the workpiece has a part equal to its drawing") {

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "nominal_parts.hpp"
 
 namespace fitgauge::probing {

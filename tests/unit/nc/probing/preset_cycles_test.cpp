@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <algorithm>
-
 #include "probing_bench.hpp"
 
 namespace fitgauge::probing {

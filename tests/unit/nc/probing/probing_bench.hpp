@@ -2,13 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <initializer_list>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/probing/cycles.hpp"
 #include "recording_host.hpp"

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <map>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "nc/probing/cycle_host.hpp"
 
 namespace fitgauge::probing {

@@ -1,8 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <set>
-#include <utility>
-
 #include "nc/probing/cycles.hpp"
 
 namespace fitgauge::probing {

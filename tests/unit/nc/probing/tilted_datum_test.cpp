@@ -1,5 +1,3 @@
-#include <array>
-
 #include "nc/machine/random.hpp"
 #include "probing_bench.hpp"
 #include "support/deep.hpp"

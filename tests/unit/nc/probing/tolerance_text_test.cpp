@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <string>
-
 #include "nc/probing/object/dimension.hpp"
 
 namespace fitgauge::probing {

@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "nc/klartext/parser.hpp"

@@ -1,7 +1,3 @@
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "run_fixture.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,7 +1,5 @@
 #include "nc/program/linker.hpp"
 
-#include <thread>
-
 #include "run_fixture.hpp"
 
 namespace fitgauge::interpreter {

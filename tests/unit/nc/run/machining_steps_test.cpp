@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "workshop.hpp"
 
 /// The steps of further machining cycles, worked out by hand from the control's manuals.

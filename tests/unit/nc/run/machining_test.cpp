@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "workshop.hpp"
 
 /// Machining cycles as motion: positions, depths and feeds worked out by hand from the steps the

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "run_fixture.hpp"
 
 namespace fitgauge::interpreter {

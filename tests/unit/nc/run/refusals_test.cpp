@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "nc/run/plane_geometry.hpp"
 #include "workshop.hpp"
 

@@ -2,13 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/machine/tracing_machine.hpp"
 #include "nc/program/check.hpp"

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "nc/program/diagnose.hpp"
 #include "nc/program/machining_cycles.hpp"
 #include "workshop.hpp"

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "nc/program/system_addresses.hpp"
 #include "run_fixture.hpp"
 

@@ -1,5 +1,3 @@
-#include <array>
-#include <cmath>
 #include <sstream>
 
 #include "workshop.hpp"

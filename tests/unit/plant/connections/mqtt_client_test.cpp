@@ -3,13 +3,8 @@
 #include <doctest/doctest.h>
 #include <malloc.h>
 
-#include <array>
 #include <boost/asio.hpp>
-#include <cstddef>
 #include <future>
-#include <stdexcept>
-#include <string>
-#include <string_view>
 
 #include "base/thread.hpp"
 

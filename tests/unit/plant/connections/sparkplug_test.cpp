@@ -1,8 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <string>
-#include <vector>
-
 #include "plant/sparkplug/edge_node.hpp"
 
 namespace fitgauge::connections {

@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <string>
-
 namespace fitgauge::connections {
 namespace {
 

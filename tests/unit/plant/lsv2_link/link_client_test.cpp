@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <map>
-
 #include "plant/lsv2/link/link_server.hpp"
 
 using namespace fitgauge;

@@ -2,10 +2,6 @@
 #include <doctest/doctest.h>
 #include <sys/socket.h>
 
-#include <mutex>
-#include <string>
-#include <vector>
-
 #include "base/folder.hpp"
 #include "plant/lsv2/link/answers.hpp"
 #include "plant/lsv2/link/link_server.hpp"

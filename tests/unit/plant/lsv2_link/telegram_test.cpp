@@ -1,9 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <string>
-#include <vector>
-
 #include "plant/lsv2/link/answers.hpp"
 #include "plant/lsv2/link/payload.hpp"
 #include "plant/lsv2/link/requests.hpp"

@@ -6,8 +6,6 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
-#include <optional>
-#include <string>
 
 namespace fitgauge::mtconnect {
 namespace {

@@ -6,8 +6,6 @@
 #include <boost/asio/read.hpp>
 #include <filesystem>
 #include <future>
-#include <stdexcept>
-#include <string>
 
 #include "base/thread.hpp"
 #include "service/application.hpp"

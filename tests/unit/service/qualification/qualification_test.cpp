@@ -2,11 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <set>
-
 #include "base/digest.hpp"
 #include "base/json/json_value.hpp"
 #include "proof/note.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <string_view>
-
 #include "tables/iso286/tolerance_class.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
 

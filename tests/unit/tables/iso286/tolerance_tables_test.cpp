@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <set>
-
 #include "tables_fixture.hpp"
 
 using namespace fitgauge;

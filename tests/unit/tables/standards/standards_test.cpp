@@ -1,7 +1,4 @@
 #include <doctest/doctest.h>
-#include <fmt/format.h>
-
-#include <array>
 
 #include "tables/standards/designated_limits.hpp"
 

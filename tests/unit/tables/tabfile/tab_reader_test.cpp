@@ -1,6 +1,5 @@
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include "tables/tabfile/tab_table.hpp"
 
