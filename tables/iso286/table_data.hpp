@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "base/text.hpp"
 #include "tables/iso286/limit_deviations.hpp"
 #include "tables/iso286/nominal_size.hpp"
 
@@ -15,9 +16,16 @@ enum class TableId : std::uint8_t {
 inline constexpr std::array kTableIds = {TableId::ItGrades, TableId::HoleFundamentalDeviations,
                                          TableId::ShaftFundamentalDeviations};
 
+inline constexpr std::array<std::string_view, 3> kTableNames = {
+    "it_grades", "hole_fundamental_deviations", "shaft_fundamental_deviations"};
+
 /// `it_grades`, `hole_fundamental_deviations`, `shaft_fundamental_deviations`: the files' names.
-std::string_view name(TableId table);
-std::optional<TableId> table_from_name(std::string_view name);
+constexpr std::string_view name(TableId table) {
+  return kTableNames[static_cast<std::size_t>(table)];
+}
+constexpr std::optional<TableId> table_from_name(std::string_view name) {
+  return enum_of<TableId>(name, kTableNames);
+}
 
 /// One cell; without a value the standard defines nothing there. Columns are named as in the CSV:
 /// `IT7`, `EI_A`, `ES_K_le_IT8_base`, `delta_IT3`. JS and js have no column: they are ±IT/2.
@@ -74,10 +82,5 @@ std::vector<Error> compare_with_compiled_in(const TableData& data);
 /// lower.
 /// @errors TableRowsInvalid; `details` has one entry for each finding, `where` its JSON pointer.
 Result<void> check_custom_column(const CustomColumn& column);
-
-/// The files of tables/data, byte for byte. Sizes are in mm, deviations and tolerances in µm.
-extern const std::string_view kItGradesCsv;
-extern const std::string_view kHoleFundamentalDeviationsCsv;
-extern const std::string_view kShaftFundamentalDeviationsCsv;
 
 }  // namespace fitgauge::iso286

@@ -40,6 +40,11 @@ Error malformed(ErrorCode code, std::string_view text, std::string_view what) {
   return {code, "'" + shown + "' " + std::string(what)};
 }
 
+Error out_of_range(std::string_view size) {
+  return {ErrorCode::SizeOutOfRange,
+          "nominal size " + std::string(size) + " mm must be above 0 and at most 3150 mm"};
+}
+
 std::string_view without_diameter_sign(std::string_view text) {
   for (const std::string_view sign : kDiameterSigns) {
     if (text.starts_with(sign)) return trim(text.substr(sign.size()));
@@ -59,6 +64,21 @@ bool take_envelope(std::string_view& text) {
 }
 
 }  // namespace
+
+Result<NominalSize> NominalSize::make(Length size) {
+  if (size <= Length() || size > kLargestNominalSize) return out_of_range(format_mm(size));
+  return NominalSize(size);
+}
+
+Result<NominalSize> NominalSize::parse_mm(std::string_view text, LengthSyntax syntax) {
+  const auto size = parse_length_mm(text, syntax);
+  if (!size && size.error().code == ErrorCode::LengthOutOfRange) return out_of_range(text);
+  return size ? make(*size) : size.error();
+}
+
+std::string format_range(const NominalSizeRange& range) {
+  return "over " + format_mm(range.over) + " up to and including " + format_mm(range.up_to) + " mm";
+}
 
 std::string_view text(StandardToleranceGrade grade) {
   return kGradeTexts[static_cast<std::size_t>(grade)];

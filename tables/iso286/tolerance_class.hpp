@@ -6,62 +6,16 @@
 namespace fitgauge::iso286 {
 
 /// The standard tolerance grades IT01 to IT18, finest first (ISO 286-1, 3.2.8.2).
-enum class StandardToleranceGrade : std::uint8_t {
-  IT01,
-  IT0,
-  IT1,
-  IT2,
-  IT3,
-  IT4,
-  IT5,
-  IT6,
-  IT7,
-  IT8,
-  IT9,
-  IT10,
-  IT11,
-  IT12,
-  IT13,
-  IT14,
-  IT15,
-  IT16,
-  IT17,
-  IT18,
-};
+enum class StandardToleranceGrade : std::uint8_t {  // clang-format off
+  IT01, IT0, IT1, IT2, IT3, IT4, IT5, IT6, IT7, IT8, IT9, IT10, IT11, IT12, IT13, IT14, IT15, IT16,
+  IT17, IT18 };  // clang-format on
 inline constexpr std::size_t kGradeCount = 20;
 
 /// The fundamental deviation identifiers in alphabetical order, upper case for holes and lower case
 /// for shafts (ISO 286-1, 4.1.4).
-enum class DeviationLetter : std::uint8_t {
-  A,
-  B,
-  C,
-  CD,
-  D,
-  E,
-  EF,
-  F,
-  FG,
-  G,
-  H,
-  J,
-  JS,
-  K,
-  M,
-  N,
-  P,
-  R,
-  S,
-  T,
-  U,
-  V,
-  X,
-  Y,
-  Z,
-  ZA,
-  ZB,
-  ZC,
-};
+enum class DeviationLetter : std::uint8_t {  // clang-format off
+  A, B, C, CD, D, E, EF, F, FG, G, H, J, JS, K, M, N, P, R, S, T, U, V, X, Y, Z, ZA, ZB,
+  ZC };  // clang-format on
 inline constexpr std::size_t kLetterCount = 28;
 
 /// Returns the number of a grade as written in a class: `7`, `01`.

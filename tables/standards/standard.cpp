@@ -2,6 +2,7 @@
 
 #include "base/digest.hpp"
 #include "base/number.hpp"
+#include "tables/compiled_in.hpp"
 
 namespace fitgauge::standards {
 namespace {
@@ -31,21 +32,6 @@ constexpr std::array<std::pair<std::string_view, std::optional<Length> Row::*>, 
     {"pitch_mm", &Row::pitch},
     {"diameter_mm", &Row::diameter},
 }};
-
-/// Removes the text up to the next separator.
-std::string_view take(std::string_view& rest, char separator) {
-  const std::size_t end = std::min(rest.find(separator), rest.size());
-  const std::string_view text = rest.substr(0, end);
-  rest.remove_prefix(std::min(end + 1, rest.size()));
-  return text;
-}
-
-std::vector<std::string_view> cells_of(std::string_view line) {
-  std::vector<std::string_view> cells;
-  const auto count = 1 + std::count(line.begin(), line.end(), ',');
-  for (std::ptrdiff_t i = 0; i < count; ++i) cells.push_back(take(line, ','));
-  return cells;
-}
 
 std::optional<std::int64_t> number(std::string_view cell, Unit unit) {
   if (unit == Unit::ArcMinute) return read_number<std::int64_t>(cell);
@@ -178,9 +164,9 @@ std::optional<Length> Row::length(std::string_view item, Member member) const {
 
 Result<Table> read_table(std::string_view name, std::string_view csv) {
   Table table{.name = name, .rows = {}};
-  const std::vector<std::string_view> columns = cells_of(take(csv, '\n'));
+  const std::vector<std::string_view> columns = cells_of(take_field(csv, '\n'));
   for (std::size_t line = 2; !csv.empty(); ++line) {
-    const std::vector<std::string_view> cells = cells_of(take(csv, '\n'));
+    const std::vector<std::string_view> cells = cells_of(take_field(csv, '\n'));
     if (cells.size() != columns.size()) return broken(name, line, "has another number of cells");
     Row row;
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -197,9 +183,7 @@ Result<Table> read_table(std::string_view name, std::string_view csv) {
 }
 
 const Table& Standard::table(std::string_view table_name) const {
-  const auto found = std::find_if(tables.begin(), tables.end(), [&](const Table& candidate) {
-    return candidate.name == table_name;
-  });
+  const auto found = std::ranges::find(tables, table_name, &Table::name);
   if (found == tables.end()) throw std::logic_error(fmt::format("no table {}", table_name));
   return *found;
 }
@@ -210,10 +194,8 @@ std::span<const Standard> all() {
 }
 
 const Standard* find(std::string_view name) {
-  for (const Standard& standard : all()) {
-    if (standard.name == name) return &standard;
-  }
-  return nullptr;
+  const auto found = std::ranges::find(all(), name, &Standard::name);
+  return found == all().end() ? nullptr : &*found;
 }
 
 }  // namespace fitgauge::standards

@@ -73,8 +73,4 @@ std::span<const Standard> all();
 /// Returns null if there is no standard of this name.
 const Standard* find(std::string_view name);
 
-/// Returns a file of tables/data/standards, such as `iso2768_linear`, byte for byte; empty if it
-/// does not exist.
-std::string_view compiled_in_csv(std::string_view name);
-
 }  // namespace fitgauge::standards

@@ -1,5 +1,6 @@
 #include "tables/tabfile/tab_table.hpp"
 
+#include "base/number.hpp"
 #include "base/text.hpp"
 #include "tables/tabfile/characters.hpp"
 
@@ -61,6 +62,97 @@ TabHeader read_begin_line(std::string_view text) {
   return header;
 }
 
+/// A width or count of decimals; 0 for other texts: the column line decides anyway.
+template <class Number>
+Number small_number(std::string_view text) {
+  constexpr Number kLargest = 999;
+  const Number value = read_number<Number>(text).value_or(0);
+  return value <= kLargest ? value : 0;
+}
+
+std::string_view unquoted(std::string_view text) {
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
+    return text.substr(1, text.size() - 2);
+  }
+  return text;
+}
+
+/// The end of a value of TableDescription: a quoted text, or up to a comma or parenthesis.
+std::size_t value_end(std::string_view text) {
+  if (text.starts_with('"')) {
+    const std::size_t quote = text.find('"', 1);
+    return quote == std::string_view::npos ? text.size() : quote + 1;
+  }
+  return std::min(text.find_first_of(",)]\r\n"), text.size());
+}
+
+/// The word that ends before `end`.
+std::string_view key_before(std::string_view text, std::size_t end) {
+  std::size_t begin = end;
+  while (begin > 0 && is_ascii_letter(text[begin - 1])) --begin;
+  return text.substr(begin, end - begin);
+}
+
+/// The description of columns in a file, by name, before the line of their names.
+using ColumnDescriptions = std::map<std::string, TabColumn, std::less<>>;
+
+/// Reads the lines between #STRUCTBEGIN and #STRUCTEND; texts for dialogs are passed over.
+ColumnDescriptions read_struct_block(const std::vector<std::string_view>& lines) {
+  ColumnDescriptions columns;
+  TabColumn* column = nullptr;
+  for (const std::string_view line : lines) {
+    const std::size_t equals = line.find('=');
+    if (equals == std::string_view::npos) continue;
+    const std::string_view key = trim(line.substr(0, equals));
+    const std::string_view value = trim(line.substr(equals + 1));
+    if (key == "NAME") {
+      if (columns.size() == kMostColumns) return columns;
+      column = &columns[std::string(value)];
+      column->name = value;
+    } else if (column == nullptr) {
+      continue;
+    } else if (key == "TYPE") {
+      column->type = value;
+    } else if (key == "WIDTH") {
+      column->width = small_number<std::size_t>(value);
+    } else if (key == "DEC") {
+      column->decimals = small_number<int>(value);
+    }
+  }
+  return columns;
+}
+
+/// Reads the text in the parentheses of TableDescription.
+ColumnDescriptions read_table_description(std::string_view text) {
+  constexpr std::string_view kAssign = ":=";
+  ColumnDescriptions columns;
+  TabColumn* column = nullptr;
+  while (true) {
+    const std::size_t assign = text.find(kAssign);
+    if (assign == std::string_view::npos) return columns;
+    const std::string_view key = key_before(text, assign);
+    text = trim(text.substr(assign + kAssign.size()));
+    const std::size_t end = value_end(text);
+    const std::string_view value = unquoted(trim(text.substr(0, end)));
+    if (key == "columns") continue;  // the list, not a value
+    text.remove_prefix(end);
+    if (key == "key") {
+      if (columns.size() == kMostColumns) return columns;
+      column = &columns[std::string(value)];
+      column->name = value;
+      column->type = "FLOAT";
+    } else if (column == nullptr) {
+      continue;
+    } else if (key == "width") {
+      column->width = small_number<std::size_t>(value);
+    } else if (key == "decimals") {
+      column->decimals = small_number<int>(value);
+    } else if (key == "unit") {
+      column->type = value;
+    }
+  }
+}
+
 /// A column of the column line: the begin of its cells and of the next column's cells.
 struct ColumnPlace {
   std::size_t begin;  ///< in characters
@@ -88,13 +180,10 @@ class Reader {
     TabHeader header = read_begin_line(lines_[0].substr(kBegin.size()));
     if (header.name.empty()) return malformed(0, "BEGIN is not followed by the table's name");
     next_ = 1;
-    auto descriptions = read_descriptions(header);
-    if (!descriptions) return descriptions.error();
-    auto columns = read_column_line(*descriptions);
-    if (!columns) return columns.error();
-    TabTable table(std::move(header), std::move(*columns));
-    auto end = read_rows(table);
-    if (!end) return end.error();
+    const auto descriptions = TRY(read_descriptions(header));
+    auto columns = TRY(read_column_line(descriptions));
+    TabTable table(std::move(header), std::move(columns));
+    TRY(read_rows(table));
     return table;
   }
 
@@ -196,15 +285,14 @@ class Reader {
       const std::string_view line = lines_[next_];
       if (is_end(line)) return read_nothing_more();
       if (trim(line).empty()) continue;
-      auto row = cut(line);
-      if (!row) return row.error();
+      const auto row = TRY(cut(line));
       constexpr std::size_t kBetweenLooks = 256;
       if (next_ % kBetweenLooks == 0 && allowance_.is_spent()) {
         return malformed(next_, "the table is too large to be read here");
       }
-      cells += row->size();
+      cells += row.size();
       if (cells > kMostCells) return malformed(next_, "a table has at most a million cells");
-      if (auto appended = table.append_row(*row); !appended) {
+      if (auto appended = table.append_row(row); !appended) {
         return malformed(next_, appended.error().message);
       }
     }

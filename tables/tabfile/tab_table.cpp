@@ -62,6 +62,40 @@ std::string begin_line(const TabHeader& header) {
   return line;
 }
 
+/// Returns whether a column has data that its name and place do not define. The width of the last
+/// column does not count.
+bool is_described(const TabTable& table, const TabColumn& column) {
+  const bool is_last = &column == &table.columns().back();
+  return !column.type.empty() || column.decimals || is_last;
+}
+
+/// The description of all columns that have a type, as the lines of their form.
+std::string write_description(const TabTable& table) {
+  std::string out;
+  if (table.header().form == HeaderForm::StructBlock) {
+    out += "#STRUCTBEGIN\n";
+    for (const TabColumn& column : table.columns()) {
+      if (!is_described(table, column)) continue;
+      out += fmt::format("   NAME = {}\n     TYPE = {}\n     WIDTH = {}\n", column.name,
+                         column.type, column.width);
+      if (column.decimals) out += fmt::format("     DEC = {}\n", *column.decimals);
+    }
+    out += "#STRUCTEND\n";
+  }
+  if (table.header().form == HeaderForm::TableDescription) {
+    out += "TableDescription (\n  columns:=[\n";
+    for (const TabColumn& column : table.columns()) {
+      if (!is_described(table, column)) continue;
+      out += fmt::format("    CfgColumnDescription ( key:=\"{}\", width:={}, ", column.name,
+                         column.width);
+      if (column.decimals) out += fmt::format("decimals:={}, ", *column.decimals);
+      out += fmt::format("unit:=\"{}\" ),\n", column.type);
+    }
+    out += "  ]\n)\n";
+  }
+  return out;
+}
+
 }  // namespace
 
 TabTable::TabTable(TabHeader header, std::vector<TabColumn> columns)
@@ -124,17 +158,14 @@ Result<std::size_t> TabTable::find_row(std::int64_t number) const {
 }
 
 Result<TabTable::Place> TabTable::find(std::int64_t row, std::string_view column) const {
-  const auto row_index = find_row(row);
-  if (!row_index) return row_index.error();
-  const auto column_index = find_column(column);
-  if (!column_index) return column_index.error();
-  return Place{*row_index, *column_index};
+  const auto row_index = TRY(find_row(row));
+  const auto column_index = TRY(find_column(column));
+  return Place{row_index, column_index};
 }
 
 Result<double> TabTable::number(std::int64_t row, std::string_view column) const {
-  const auto place = find(row, column);
-  if (!place) return place.error();
-  const std::string_view written = cell(place->row, place->column);
+  const auto place = TRY(find(row, column));
+  const std::string_view written = cell(place.row, place.column);
   if (written.empty()) {
     return Error{ErrorCode::TableCellEmpty,
                  fmt::format("table {} is blank in {}", header_.name, place_of(row, column))};
@@ -147,39 +178,36 @@ Result<double> TabTable::number(std::int64_t row, std::string_view column) const
 }
 
 Result<std::string_view> TabTable::text(std::int64_t row, std::string_view column) const {
-  const auto place = find(row, column);
-  if (!place) return place.error();
-  return cell(place->row, place->column);
+  const auto place = TRY(find(row, column));
+  return cell(place.row, place.column);
 }
 
 Result<void> TabTable::set_number(std::int64_t row, std::string_view column, double value) {
-  const auto place = find(row, column);
-  if (!place) return place.error();
+  const auto place = TRY(find(row, column));
   if (!std::isfinite(value)) {
     return Error{ErrorCode::NumberOutOfRange,
                  fmt::format("{} accepts only finite numbers", place_of(row, column))};
   }
-  const TabColumn& target = columns_[place->column];
+  const TabColumn& target = columns_[place.column];
   return set_text(row, column,
                   target.decimals ? fmt::format("{:.{}f}", value, *target.decimals)
                                   : shortest(value, target.width));
 }
 
 Result<void> TabTable::set_text(std::int64_t row, std::string_view column, std::string_view value) {
-  const auto place = find(row, column);
-  if (!place) return place.error();
-  if (place->column == 0) {
+  const auto place = TRY(find(row, column));
+  if (place.column == 0) {
     return Error{ErrorCode::FieldInvalid,
                  fmt::format("column {} numbers the rows and cannot be written", column)};
   }
-  const TabColumn& target = columns_[place->column];
+  const TabColumn& target = columns_[place.column];
   const std::string_view written = trim(value);
   if (count_characters(written) > std::max(target.width, count_characters(target.name))) {
     return Error{ErrorCode::TableCellTooLong,
                  fmt::format("'{}' is longer than the {} characters of {} in table {}", written,
                              target.width, place_of(row, column), header_.name)};
   }
-  changed_[*place] = written;
+  changed_[place] = written;
   return {};
 }
 

@@ -117,19 +117,7 @@ Result<TabTable> read_tab(std::string_view text);
 /// Reads the bytes of a file: UTF-8, or Windows-1252 as older controls write it.
 Result<TabTable> read_tab_file(std::string_view bytes, Allowance& allowance);
 
-/// The description of columns in a file, by name, before the line of their names.
-using ColumnDescriptions = std::map<std::string, TabColumn, std::less<>>;
-
 /// Maximum number of columns; reading ends at a description with more.
 inline constexpr std::size_t kMostColumns = 4096;
-
-/// Reads the lines between #STRUCTBEGIN and #STRUCTEND; texts for dialogs are passed over.
-ColumnDescriptions read_struct_block(const std::vector<std::string_view>& lines);
-
-/// Reads the text in the parentheses of TableDescription.
-ColumnDescriptions read_table_description(std::string_view text);
-
-/// The description of all columns that have a type, as the lines of their form.
-std::string write_description(const TabTable& table);
 
 }  // namespace fitgauge::tabfile
