@@ -6,7 +6,7 @@
 #include "api/services.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/length.hpp"
-#include "metrology/gauging/severity.hpp"
+#include "metrology/gauging/gauge.hpp"
 #include "record/record.hpp"
 #include "record/verdict_codec.hpp"
 #include "tables/standards/designated_limits.hpp"

@@ -18,6 +18,12 @@ inline constexpr std::size_t kVerdicts = 5;
 std::string_view word(Verdict verdict);
 std::optional<Verdict> verdict_from_word(std::string_view text);
 
+/// Orders verdicts: reject is the worst, before rework, indeterminate and good; least is none.
+constexpr int severity(std::optional<Verdict> verdict) {
+  constexpr std::array<int, kVerdicts> kSeverity = {1, 3, 4, 2, 0};
+  return verdict ? kSeverity.at(static_cast<std::size_t>(*verdict)) : 0;
+}
+
 /// Kind of a measured value. A deviation is of a surface from its nominal form.
 enum class Quantity : std::uint8_t {
   Diameter,

@@ -1,23 +1,28 @@
 #include "nc/probing/cycles.hpp"
 
 namespace fitgauge::probing {
-namespace {
 
-constexpr const TouchProbeCycle* kCycles[] = {
-#define FITGAUGE_CYCLE(file, number) &file::kCycle##number,
-#include "nc/probing/cycles.inc"
-#undef FITGAUGE_CYCLE
-};
-
-}  // namespace
-
-std::span<const TouchProbeCycle* const> cycles() { return kCycles; }
+std::span<const TouchProbeCycle* const> cycles() {
+  static const std::vector<const TouchProbeCycle*> kCycles = [] {
+    std::vector<const TouchProbeCycle*> all;
+    for (const auto& file : {kAlignmentCycles, kCalibrationCycles, kDottedCycles, kKinematicsCycles,
+                             kObjectCycles, kOtherCycles, kPresetCycles, kProbing3dCycles,
+                             kSizeCycles, kToolCycles}) {
+      for (const TouchProbeCycle& cycle : file) all.push_back(&cycle);
+    }
+    std::ranges::sort(all, {}, [](const TouchProbeCycle* cycle) {
+      return std::pair(cycle->descriptor.family == CycleFamily::CyclDef, cycle->descriptor.number);
+    });
+    return all;
+  }();
+  return kCycles;
+}
 
 const TouchProbeCycle* find_cycle(CycleFamily family, int number) {
-  const auto found = std::ranges::find_if(kCycles, [&](const TouchProbeCycle* cycle) {
+  const auto found = std::ranges::find_if(cycles(), [&](const TouchProbeCycle* cycle) {
     return cycle->descriptor.family == family && cycle->descriptor.number == number;
   });
-  return found == std::ranges::end(kCycles) ? nullptr : *found;
+  return found == cycles().end() ? nullptr : *found;
 }
 
 }  // namespace fitgauge::probing

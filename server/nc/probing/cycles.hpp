@@ -4,13 +4,10 @@
 
 namespace fitgauge::probing {
 
-/// Every cycle's definition, cycle_421_422::kCycle421 in cycle_421_422.cpp.
-#define FITGAUGE_CYCLE(file, number)           \
-  namespace file {                             \
-  extern const TouchProbeCycle kCycle##number; \
-  }
-#include "nc/probing/cycles.inc"
-#undef FITGAUGE_CYCLE
+/// The cycles of each file: of alignment/alignment_cycles.cpp, ...
+extern const std::span<const TouchProbeCycle> kAlignmentCycles, kCalibrationCycles, kDottedCycles,
+    kKinematicsCycles, kObjectCycles, kOtherCycles, kPresetCycles, kProbing3dCycles, kSizeCycles,
+    kToolCycles;
 
 /// Every cycle of this library, by family and number: TCH PROBE first, then CYCL DEF.
 std::span<const TouchProbeCycle* const> cycles();

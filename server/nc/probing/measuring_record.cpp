@@ -1,6 +1,6 @@
 #include "nc/probing/measuring_record.hpp"
 
-#include "metrology/gauging/severity.hpp"
+#include "metrology/gauging/gauge.hpp"
 
 namespace fitgauge::probing {
 

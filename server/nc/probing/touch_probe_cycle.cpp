@@ -10,7 +10,7 @@ CycleResult<void> run_cycle(const TouchProbeCycle& cycle, Arguments arguments,
                             machine::Machine& machine, CycleHost& host) {
   TRY(arguments.complete());
   if (cycle.check != nullptr) TRY(cycle.check(arguments));
-  auto done = cycle.execute({arguments, machine, host});
+  auto done = cycle.execute({std::move(arguments), machine, host});
   assert(done || done.error().number == 0 ||
          errors_of(cycle.descriptor).contains(done.error().number));
   return done;

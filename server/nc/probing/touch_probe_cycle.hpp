@@ -8,11 +8,12 @@
 
 namespace fitgauge::probing {
 
-/// The input of one execution; the arguments are complete.
-struct CycleContext {
-  const Arguments& arguments;
+/// The input of one execution: its complete arguments, the machine and the program around it.
+struct CycleContext : Arguments {
   machine::Machine& machine;
   CycleHost& host;
+
+  const machine::MachineState& state() const { return machine.state(); }
 };
 
 using CycleFunction = CycleResult<void> (*)(const CycleContext&);

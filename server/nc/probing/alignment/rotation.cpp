@@ -44,7 +44,7 @@ CycleResult<void> reset_basic_rotation(machine::Machine& machine) {
 }
 
 CycleResult<void> begin_without_rotation(const CycleContext& context) {
-  const Vec3 rotation = context.machine.state().frames.preset().basic_rotation_deg;
+  const Vec3 rotation = context.state().frames.preset().basic_rotation_deg;
   if (rotation == Vec3{}) return {};
   const std::string shown =
       rotation.x == 0 && rotation.y == 0
@@ -53,12 +53,12 @@ CycleResult<void> begin_without_rotation(const CycleContext& context) {
   auto noted =
       context.host.note(fmt::format("basic rotation of {} degrees is reset by cycle {}: its "
                                     "coordinates and all later coordinates count without it",
-                                    shown, context.arguments.descriptor().number));
+                                    shown, context.descriptor().number));
   return noted ? reset_basic_rotation(context.machine) : noted;
 }
 
 CycleResult<ProbingMotion> begin_alignment(const CycleContext& context) {
-  TRY(refuse_mirror_and_scaling(context.machine.state().frames));
+  TRY(refuse_mirror_and_scaling(context.state().frames));
   auto motion = ProbingMotion::begin(context);
   if (!motion) return motion;
   TRY(begin_without_rotation(context));
@@ -67,7 +67,7 @@ CycleResult<ProbingMotion> begin_alignment(const CycleContext& context) {
 
 CycleResult<void> set_basic_rotation(const CycleContext& context, const Vec3& rotation_deg,
                                      int row) {
-  const machine::MachineState& state = context.machine.state();
+  const machine::MachineState& state = context.state();
   Frames frames = state.frames;
   machine::PresetFrame active = frames.preset();
   active.basic_rotation_deg = rotation_deg;
@@ -97,14 +97,14 @@ CycleResult<double> table_angle(const machine::MachineState& state, Axis rotary,
 }
 
 CycleResult<void> align_rotary_axis(const CycleContext& context, Axis rotary, double angle_deg) {
-  const auto turn = TRY(table_angle(context.machine.state(), rotary, angle_deg));
+  const auto turn = TRY(table_angle(context.state(), rotary, angle_deg));
   machine::AxisWords target;
   target[rotary] = to_angle(context.machine.position()[rotary] + turn);
   return lift(context.machine.move({target, machine::Feed::rapid()}));
 }
 
 CycleResult<void> zero_rotary_axis(const CycleContext& context, Axis rotary, int row) {
-  const machine::MachineState& state = context.machine.state();
+  const machine::MachineState& state = context.state();
   const std::size_t offset = index(rotary) - 3;
   machine::Frames frames = state.frames;
   machine::PresetFrame active = frames.preset();

@@ -28,11 +28,11 @@ std::string row(std::string_view label, double before, double after, bool inch) 
 /// @errors when the run's output budget is used up.
 CycleResult<void> log_calibration(const CycleContext& context, const machine::ProbeSystem& before,
                                   const machine::ProbeSystem& after, Length residual) {
-  const CycleDescriptor& cycle = context.arguments.descriptor();
+  const CycleDescriptor& cycle = context.descriptor();
   const bool inch = context.host.is_inch();
   const std::string section = fmt::format(
       templates::calibration::section, "cycle"_a = cycle.number, "name"_a = cycle.name,
-      "when"_a = date_and_time(context.host), "tool"_a = context.machine.state().tool.number,
+      "when"_a = date_and_time(context.host), "tool"_a = context.state().tool.number,
       "row"_a = after.data.number,
       "radius"_a = row("Effective ball radius", before.radius, after.radius, inch),
       "main"_a = row("Centre offset CAL_OF1", before.data.cal_of1, after.data.cal_of1, inch),
@@ -62,7 +62,7 @@ ProbeCalibrator::ProbeCalibrator(const CycleContext& context, const ProbingMotio
       start_(motion.plane().from_input(context.machine.position().linear)) {}
 
 CycleResult<ProbeCalibrator> ProbeCalibrator::begin(const CycleContext& context) {
-  const MachineState& state = context.machine.state();
+  const MachineState& state = context.state();
   TRY(refuse_mirror_and_scaling(state.frames));
   const auto motion = TRY(ProbingMotion::begin(context));
   TRY(check_straight(state, motion.plane().probe));
@@ -70,19 +70,18 @@ CycleResult<ProbeCalibrator> ProbeCalibrator::begin(const CycleContext& context)
 }
 
 CycleResult<RoundStandard> ProbeCalibrator::touch_around(Side side, Point2 centre, double height) {
-  const Arguments& arguments = context_.arguments;
-  const int points = arguments.whole(423);
+  const int points = context_.whole(423);
   constexpr double kTurn = 360;
   const auto touches =
       circle_touches({.side = side,
                       .centre = centre,
-                      .diameter = 2 * arguments.number(407),
-                      .start_angle = arguments.number(380),
+                      .diameter = 2 * context_.number(407),
+                      .start_angle = context_.number(380),
                       .step = kTurn / points,
                       .points = points,
                       .height = height,
-                      .start_distance = motion_.start_distance(arguments.number(320)),
-                      .via_clearance = arguments.number_or(301, 0) == 1});
+                      .start_distance = motion_.start_distance(context_.number(320)),
+                      .via_clearance = context_.number_or(301, 0) == 1});
   const auto contacts = TRY(motion_.touch_all(touches, start_.z));
   const auto circle = TRY(circle_through(contacts, side, 0));
   return RoundStandard{circle.centre, height, circle.radius, circle.residual};
@@ -101,17 +100,17 @@ CycleResult<ReversalResult> ProbeCalibrator::measure(const Pass& pass) {
   const Vec3 error{(second.centre.x - first.centre.x) / 2, (second.centre.y - first.centre.y) / 2,
                    0};
   return ReversalResult{
-      mean, context_.machine.state().frames.direction_to_machine(motion_.plane().to_input(error))};
+      mean, context_.state().frames.direction_to_machine(motion_.plane().to_input(error))};
 }
 
 CycleResult<RoundStandard> ProbeCalibrator::turned(double spindle_deg, const Pass& pass,
                                                    Point2 near) {
   const auto orient = [this](double degrees) {
-    machine::Modes modes = context_.machine.state().modes;
+    machine::Modes modes = context_.state().modes;
     modes.spindle_deg = degrees;
     return lift(context_.machine.set_modes(modes));
   };
-  const double before = context_.machine.state().modes.spindle_deg;
+  const double before = context_.state().modes.spindle_deg;
   TRY(orient(spindle_deg));
   auto found = pass(near);
   TRY(orient(before));
@@ -124,7 +123,7 @@ CycleResult<void> ProbeCalibrator::move_over(Point2 centre) {
 }
 
 std::array<double, 2> ProbeCalibrator::corrected_offset(const Vec3& error) const {
-  const MachineState& state = context_.machine.state();
+  const MachineState& state = context_.state();
   const Vec3 offset = state.probe_system()->centre_offset(state.tool_axis(), 0) + error;
   const std::size_t up = index(state.tool_axis());
   return {to_length(offset[(up + 1) % 3]).to_mm(), to_length(offset[(up + 2) % 3]).to_mm()};

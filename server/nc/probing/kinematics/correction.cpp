@@ -46,7 +46,7 @@ using machine::Preset;
 
 CycleResult<void> set_preset(const CycleContext& context, KinematicsProbing& probing) {
   const auto reference = TRY(probing.measure({}));
-  const MachineState& state = context.machine.state();
+  const MachineState& state = context.state();
   const Vec3 centre = on_table(reference, state.kinematics, probing.tool());
   Preset row{.number = state.active_preset, .comment = {}, .frame = state.frames.preset()};
   if (const Preset* existing = state.presets.find(row.number)) row = *existing;
@@ -60,18 +60,18 @@ CycleResult<void> set_preset(const CycleContext& context, KinematicsProbing& pro
 
 FitOptions fit_options(const CycleContext& context, bool directions) {
   return {.directions = directions,
-          .only_significant = !context.machine.state().kinematics_options.notes_insignificant};
+          .only_significant = !context.state().kinematics_options.notes_insignificant};
 }
 
 CycleResult<void> correct_kinematics(const CycleContext& context,
                                      std::span<const AxisErrors> errors, bool is_corrected,
                                      const machine::Kinematics& corrected) {
-  const machine::KinematicsOptions& options = context.machine.state().kinematics_options;
+  const machine::KinematicsOptions& options = context.state().kinematics_options;
   if (const std::string small = insignificant(errors); !small.empty()) {
     if (!is_corrected) return nc_error(1102, small + ": measure a larger range or more positions");
     const std::string_view taken = options.notes_insignificant ? "corrected" : "not corrected";
     TRY(context.host.note(
-        fmt::format("cycle {}: {}: {}", context.arguments.descriptor().number, taken, small)));
+        fmt::format("cycle {}: {}: {}", context.descriptor().number, taken, small)));
   }
   if (!is_corrected) return {};
   const double largest = largest_location(errors);
@@ -85,7 +85,7 @@ CycleResult<void> correct_kinematics(const CycleContext& context,
 }
 
 CycleResult<void> PresetAtSphere::check(const CycleContext& context) const {
-  const MachineState& state = context.machine.state();
+  const MachineState& state = context.state();
   const Preset* row = state.presets.find(state.active_preset);
   if ((!sets_before_ && !sets_after_) || row == nullptr || !row->locked) return {};
   return from_machine(make_fault(machine::FaultKind::PresetLocked,

@@ -124,7 +124,7 @@ std::string axis_text(const AxisMeasurement& axis, bool directions) {
 /// Writes a section into the log of the cycle.
 CycleResult<void> add(const CycleContext& context, std::string_view mode,
                       std::string_view measured) {
-  const CycleDescriptor& cycle = context.arguments.descriptor();
+  const CycleDescriptor& cycle = context.descriptor();
   const std::string file = fmt::format("TCHPR{}.html", cycle.number);
   const std::string title = fmt::format("Measuring log of cycle {}", cycle.number);
   const std::string heading =
@@ -133,7 +133,7 @@ CycleResult<void> add(const CycleContext& context, std::string_view mode,
   return add_section(
       context.host, log,
       fmt::format(parts::section, "when"_a = date_and_time(context.host), "mode"_a = mode,
-                  "radius"_a = mm(context.arguments.number(407)), "measured"_a = measured));
+                  "radius"_a = mm(context.number(407)), "measured"_a = measured));
 }
 
 }  // namespace

@@ -158,8 +158,8 @@ CycleResult<KinematicsMeasurement> measure_kinematics(const CycleContext& contex
                                                       KinematicsProbing& probing,
                                                       std::span<const AxisPlan> plans,
                                                       const FitOptions& options) {
-  const Kinematics active = context.machine.state().kinematics;
-  const double angle = context.arguments.number_or(432, 0);
+  const Kinematics active = context.state().kinematics;
+  const double angle = context.number_or(432, 0);
   const MeasuringTool tool = probing.tool();
   Vec3 incidence;
   for (const AxisPlan& plan : plans) incidence[index(plan.axis) - 3] = plan.incidence;

@@ -58,8 +58,8 @@ AxisWords turning_words(const MachineState& state, const Vec3& rotary) {
 
 CycleResult<KinematicsProbing> KinematicsProbing::begin(const CycleContext& context) {
   const auto probe = TRY(SphereProbe::begin(context));
-  TRY(check_retraction(context.arguments, context.machine.state()));
-  const bool follows = context.arguments.number(408) == 0;
+  TRY(check_retraction(context, context.state()));
+  const bool follows = context.number(408) == 0;
   TRY(reset_tilting(context.machine));
   return KinematicsProbing(context, probe, follows);
 }
@@ -69,8 +69,8 @@ KinematicsProbing::KinematicsProbing(const CycleContext& context, const SpherePr
     : machine_(context.machine),
       host_(context.host),
       probe_(probe),
-      retraction_(context.arguments.number(408)),
-      turning_feed_(feed_of(context.arguments.number(253))),
+      retraction_(context.number(408)),
+      turning_feed_(feed_of(context.number(253))),
       follows_(follows),
       sphere_(machine_.state().frames.preset().origin) {}
 

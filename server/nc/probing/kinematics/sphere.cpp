@@ -18,12 +18,12 @@ CycleResult<SphereProbe> SphereProbe::begin(const CycleContext& context) {
 SphereProbe::SphereProbe(const CycleContext& context)
     : machine_(context.machine),
       host_(context.host),
-      probe_(*context.machine.state().probe_system()),
-      sphere_radius_(context.arguments.number(407)),
-      clearance_(probe_.data.set_up + context.arguments.number(320)),
-      feed_(context.arguments.number(253)),
-      first_angle_(context.arguments.number(380)),
-      touches_(context.arguments.whole(423)) {}
+      probe_(*context.state().probe_system()),
+      sphere_radius_(context.number(407)),
+      clearance_(probe_.data.set_up + context.number(320)),
+      feed_(context.number(253)),
+      first_angle_(context.number(380)),
+      touches_(context.whole(423)) {}
 
 machine::Feed SphereProbe::feed() const {
   const bool machine_rapid = probe_.data.prepositioning == machine::PrePositioning::MachineRapid;

@@ -84,11 +84,11 @@ void add_values(MeasuringLog& log, std::span<const MeasuredValue> values) {
 }
 
 CycleResult<void> deliver_log(const CycleContext& context, MeasuringLog log) {
-  const int where = context.arguments.whole(281);
+  const int where = context.whole(281);
   if (where == 0) return {};
   const std::string text = std::move(log).finish();
   if (where == 1) {
-    return context.host.append_log(MeasuringLog::file_name(context.arguments.descriptor()), text);
+    return context.host.append_log(MeasuringLog::file_name(context.descriptor()), text);
   }
   if (context.host.memory().fast_probing.interrupts) context.host.show_and_stop(text);
   return {};

@@ -1,6 +1,6 @@
 #include "nc/probing/measuring/measurement.hpp"
 
-#include "metrology/gauging/severity.hpp"
+#include "metrology/gauging/gauge.hpp"
 #include "nc/probing/alignment/rotation.hpp"
 #include "nc/probing/log/measuring_log.hpp"
 
@@ -11,14 +11,14 @@ using machine::Tool;
 
 /// The row that Q330 names, null when it is 0.
 CycleResult<const Tool*> named_tool(const CycleContext& context) {
-  const auto& tools = context.machine.state().tools;
+  const auto& tools = context.state().tools;
   const Tool* found = nullptr;
   std::string said;
-  if (const std::string* name = context.arguments.text(q(330))) {
+  if (const std::string* name = context.text(q(330))) {
     found = tools.find(*name);
     said = '"' + *name + '"';
   } else {
-    const double number = context.arguments.number(330);
+    const double number = context.number(330);
     if (number == 0) return found;
     if (number == std::nearbyint(number)) found = tools.find(static_cast<int>(number));
     said = fmt::format("{}", number);
@@ -71,7 +71,7 @@ MeasuringRecord record_of(const CycleContext& context, const Measurement& measur
   const bool is_judged =
       std::ranges::any_of(measurement.values, [](const auto& value) { return !!value.limits; });
   MeasuringRecord record{
-      .cycle = context.arguments.descriptor().number,
+      .cycle = context.descriptor().number,
       .has_status = true,
       .verdict = is_judged ? std::optional(worst(measurement.values).verdict()) : std::nullopt,
       .form = measurement.form};
@@ -124,11 +124,11 @@ CycleResult<void> correct_tool(const CycleContext& context, const ToolCorrection
 }
 
 CycleResult<ProbingMotion> begin_measurement(const CycleContext& context) {
-  const Vec3& factor = context.machine.state().frames.scaling().factor;
+  const Vec3& factor = context.state().frames.scaling().factor;
   if (factor.x != factor.y || factor.y != factor.z) {
     return nc_error(1108, "reset cycle 26 before measuring");
   }
-  if (has_status(context.arguments.descriptor())) set_status(context.host, std::nullopt);
+  if (has_status(context.descriptor())) set_status(context.host, std::nullopt);
   TRY(begin_without_rotation(context));
   return ProbingMotion::begin(context);
 }
@@ -138,7 +138,7 @@ CycleResult<void> finish_measurement(const CycleContext& context, const Measurem
   const MeasuredValue& decisive = worst(measurement.values);
   publish(host, measurement.values);
   set_status(host, decisive.verdict());
-  MeasuringLog log(context.arguments.descriptor(), host);
+  MeasuringLog log(context.descriptor(), host);
   add_values(log, measurement.values);
   if (measurement.measuring_height) {
     log.section("Further results");
@@ -156,7 +156,7 @@ CycleResult<void> finish_measurement(const CycleContext& context, const Measurem
   host.record(record);
   if (measurement.correction) TRY(correct_tool(context, *measurement.correction));
   const int error = decisive.error();
-  if (context.arguments.whole(309) != 0 && error != 0) return tolerance_stop(error);
+  if (context.whole(309) != 0 && error != 0) return tolerance_stop(error);
   return {};
 }
 

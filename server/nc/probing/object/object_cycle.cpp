@@ -73,7 +73,7 @@ CycleResult<void> log_object(const CycleContext& context, const std::vector<Meas
     add(label, {fixed(measured - deviation, 4), "", "", fixed(measured, 4), fixed(deviation, 4)},
         "none");
   }
-  const CycleDescriptor& cycle = context.arguments.descriptor();
+  const CycleDescriptor& cycle = context.descriptor();
   return add_section(
       context.host, kObjectLog,
       fmt::format(templates::object::section, "cycle"_a = cycle.number, "name"_a = cycle.name,
@@ -85,8 +85,8 @@ CycleResult<void> log_object(const CycleContext& context, const std::vector<Meas
 
 CycleResult<ObjectProbing> ObjectProbing::begin(const CycleContext& context) {
   context.host.set_q(183, -1, Unit::None);
-  TRY(refuse_mirror_and_scaling(context.machine.state().frames));
-  if (context.arguments.number_or(1126, 0) != 0 && context.arguments.number_or(1121, 0) != 2) {
+  TRY(refuse_mirror_and_scaling(context.state().frames));
+  if (context.number_or(1126, 0) != 0 && context.number_or(1121, 0) != 2) {
     return nc_error(1097,
                     "Q1126 without Q1121 = 2 would position the axes of a tilted plane: write "
                     "Q1126 = 0, and PLANE after the cycle");
@@ -96,8 +96,8 @@ CycleResult<ObjectProbing> ObjectProbing::begin(const CycleContext& context) {
 }
 
 CycleResult<Nominal> ObjectProbing::size(int parameter) const {
-  const std::string* text = arguments().text(q(parameter));
-  if (text == nullptr) return Nominal{to_length(arguments().number(parameter))};
+  const std::string* text = context_.text(q(parameter));
+  if (text == nullptr) return Nominal{to_length(context_.number(parameter))};
   return parse_nominal(fmt::format("QS{}", parameter), *text, context_.host.is_inch());
 }
 
@@ -114,12 +114,12 @@ CycleResult<ObjectPoint> ObjectProbing::point(int first) const {
 
 CycleResult<std::vector<Contact>> ObjectProbing::touch(
     const std::vector<std::vector<Touch>>& objects) {
-  const int mode = arguments().whole(1125);
+  const int mode = context_.whole(1125);
   auto& memory = context_.host.memory().extrusion;
   const Extrusion extrusion = memory.value_or(Extrusion{});
   const std::size_t times = extrusion.count + 1;
   if (!extrusion.is_modal) memory.reset();
-  double height = mode < 0 ? -std::numeric_limits<double>::infinity() : arguments().number(260);
+  double height = mode < 0 ? -std::numeric_limits<double>::infinity() : context_.number(260);
   std::vector<Touch> touches;
   std::vector<Contact> means;
   for (const std::vector<Touch>& object : objects) {
@@ -135,7 +135,7 @@ CycleResult<std::vector<Contact>> ObjectProbing::touch(
       Touch touch = object[k / times];
       if (k % times != 0 || (k == 0 && !is_first)) touch.transit = Transit::Straight;
       if (mode == 2) touch.transit = Transit::ClearanceHeight;
-      if (touch.transit == Transit::ClearanceHeight) height = arguments().number(260);
+      if (touch.transit == Transit::ClearanceHeight) height = context_.number(260);
       touch.start = touch.start + extrusion.step * static_cast<double>(k % times);
       touches.push_back(std::move(touch));
     }
@@ -164,7 +164,7 @@ CycleResult<std::vector<Contact>> ObjectProbing::touch(
 
 CycleResult<void> ObjectProbing::finish(const ObjectFound& found) {
   CycleHost& host = context_.host;
-  const std::vector<MeasuredValue> values = values_of(arguments().descriptor(), found);
+  const std::vector<MeasuredValue> values = values_of(context_.descriptor(), found);
   publish(host, values);
   for (const ObjectAngle& angle : found.angles) {
     const auto result = static_cast<std::uint16_t>(angle.result_q);
@@ -177,17 +177,17 @@ CycleResult<void> ObjectProbing::finish(const ObjectFound& found) {
   TRY(log_object(context_, values, found.angles, status));
   host.record(record);
   TRY(transfer(found));
-  const int reaction = arguments().whole(309);
+  const int reaction = context_.whole(309);
   const bool stops = status.q183 == 2 ? reaction != 0 : status.q183 == 1 && reaction == 1;
   return stops ? CycleResult<void>(tolerance_stop(1072)) : CycleResult<void>();
 }
 
 CycleResult<void> ObjectProbing::transfer(const ObjectFound& found) {
   const WorkingPlane& plane = motion_.plane();
-  const double rotation = arguments().number_or(1121, 0);
+  const double rotation = context_.number_or(1121, 0);
   machine::PresetFrame turned = frames().preset();
   std::optional<MovedPoint> moved;
-  if (const auto place = static_cast<std::size_t>(arguments().whole(1120)); place > 0) {
+  if (const auto place = static_cast<std::size_t>(context_.whole(1120)); place > 0) {
     const std::size_t all = found.points.size();
     moved.emplace();
     for (std::size_t i = 0; i < all; ++i) {
@@ -201,8 +201,8 @@ CycleResult<void> ObjectProbing::transfer(const ObjectFound& found) {
   if (rotation == 2) {
     if (!found.turn_deg) return nc_error(1016, "Q1121 = 2: the table does not turn in that plane");
     const machine::Axis table = rotary_axis_around(plane.probe);
-    const auto turn = TRY(table_angle(context_.machine.state(), table, *found.turn_deg));
-    if (arguments().whole(1126) != 0) TRY(align_rotary_axis(context_, table, *found.turn_deg));
+    const auto turn = TRY(table_angle(context_.state(), table, *found.turn_deg));
+    if (context_.whole(1126) != 0) TRY(align_rotary_axis(context_, table, *found.turn_deg));
     turned.rotary_offsets_deg[machine::index(table) - 3] += to_angle(turn);
   }
   return correct_preset(context_, plane, turned, moved);

@@ -51,12 +51,12 @@ class ObjectProbing {
   /// @errors 1007, 1008, 1097 and those of ProbingMotion::begin.
   static CycleResult<ObjectProbing> begin(const CycleContext& context);
 
-  const Arguments& arguments() const { return context_.arguments; }
-  const machine::Frames& frames() const { return context_.machine.state().frames; }
+  const Arguments& arguments() const { return context_; }
+  const machine::Frames& frames() const { return context_.state().frames; }
   const ProbingMotion& motion() const { return motion_; }
   /// Further back by the approach of an undercut (Q1118).
   double start_distance() const {
-    return motion_.start_distance(arguments().number(320)) + arguments().number_or(1118, 0);
+    return motion_.start_distance(context_.number(320)) + context_.number_or(1118, 0);
   }
   CycleResult<Nominal> size(int parameter) const;
   /// Three coordinates, from that parameter on.
@@ -73,7 +73,7 @@ class ObjectProbing {
       : context_(context), motion_(motion) {}
   CycleResult<void> transfer(const ObjectFound& found);
 
-  CycleContext context_;
+  const CycleContext& context_;
   ProbingMotion motion_;
 };
 

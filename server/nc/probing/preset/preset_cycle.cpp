@@ -60,8 +60,8 @@ void move_zero(PresetFrame& preset, const Matrix3& axes, const Found& found) {
 
 CycleResult<void> write_preset(const CycleContext& context, const PresetFrame& turned,
                                std::span<const Found> points) {
-  const machine::MachineState& state = context.machine.state();
-  const int number = context.arguments.whole(305);
+  const machine::MachineState& state = context.state();
+  const int number = context.whole(305);
   Preset row{.number = number, .comment = {}, .frame = turned};
   const Preset* existing = number == 0 ? nullptr : state.presets.find(number);
   if (existing != nullptr) {
@@ -77,7 +77,7 @@ CycleResult<void> write_preset(const CycleContext& context, const PresetFrame& t
 
 CycleResult<void> write_datum_table(const CycleContext& context, const PresetFrame& turned,
                                     std::span<const Found> points) {
-  machine::Frames frames = context.machine.state().frames;
+  machine::Frames frames = context.state().frames;
   const Matrix3 inverse = axes_of(frames, turned).transposed();
   // A shift of cycle 7 counts from the origin of the tilting.
   const Vec3 tilted_at = frames.plane() ? frames.plane()->origin : Vec3{};
@@ -89,7 +89,7 @@ CycleResult<void> write_datum_table(const CycleContext& context, const PresetFra
       if (found.axes[axis]) values.values[axis] = datum[axis];
     }
   }
-  TRY(context.host.write_datum(context.arguments.whole(305), values));
+  TRY(context.host.write_datum(context.whole(305), values));
   if (turned == frames.preset()) return {};
   frames.set_preset(turned);
   return lift(context.machine.set_frames(frames));
@@ -104,17 +104,17 @@ void publish_circle(const CycleContext& context, Side side, const ProbedCircle& 
   set_length(host, 152, circle.centre.y);
   set_length(host, 153, 2 * circle.radius);
   host.record(
-      {.cycle = context.arguments.descriptor().number,
+      {.cycle = context.descriptor().number,
        .sizes = {{.characteristic = "Diameter",
                   .feature = side == Side::Inside ? iso286::Feature::Hole : iso286::Feature::Shaft,
-                  .nominal = to_length(context.arguments.number(262)),
+                  .nominal = to_length(context.number(262)),
                   .measured = to_length(2 * circle.radius)}},
        .form = probed.form});
 }
 
 CycleResult<ProbingMotion> begin_preset(const CycleContext& context) {
-  TRY(refuse_mirror_and_scaling(context.machine.state().frames));
-  if (context.arguments.whole(303) == -1 && context.arguments.whole(305) != 0) {
+  TRY(refuse_mirror_and_scaling(context.state().frames));
+  if (context.whole(303) == -1 && context.whole(305) != 0) {
     return nc_error(1078, "0 is the datum table, 1 the preset table");
   }
   return ProbingMotion::begin(context);
@@ -123,19 +123,19 @@ CycleResult<ProbingMotion> begin_preset(const CycleContext& context) {
 CycleResult<void> transfer_datum(const CycleContext& context, const WorkingPlane& plane,
                                  std::span<const DatumPoint> points,
                                  std::optional<double> turn_deg) {
-  const machine::Frames& frames = context.machine.state().frames;
+  const machine::Frames& frames = context.state().frames;
   std::vector<Found> found;
   for (const DatumPoint& point : points) found.push_back(found_in(frames, plane, point));
   PresetFrame turned = frames.preset();
   if (turn_deg) turned.basic_rotation_deg = turned_rotation(frames, plane, *turn_deg);
-  const bool datum_table = context.arguments.whole(303) == 0 && context.arguments.whole(305) != 0;
+  const bool datum_table = context.whole(303) == 0 && context.whole(305) != 0;
   return datum_table ? write_datum_table(context, turned, found)
                      : write_preset(context, turned, found);
 }
 
 CycleResult<void> correct_preset(const CycleContext& context, const WorkingPlane& plane,
                                  PresetFrame turned, const std::optional<MovedPoint>& moved) {
-  const machine::MachineState& state = context.machine.state();
+  const machine::MachineState& state = context.state();
   Frames frames = state.frames;
   const PresetFrame before = frames.preset();
   if (moved) {
@@ -163,14 +163,13 @@ DatumPoint plane_datum(const Arguments& arguments, Point2 point) {
 
 CycleResult<void> finish_preset(const CycleContext& context, ProbingMotion& motion,
                                 const DatumPoint& found, std::optional<double> basic_rotation) {
-  const Arguments& arguments = context.arguments;
   std::vector<DatumPoint> points{found};
-  if (arguments.whole(381) == 1) {
-    const Vec3 nominal{arguments.number(382), arguments.number(383), arguments.number(384)};
+  if (context.whole(381) == 1) {
+    const Vec3 nominal{context.number(382), context.number(383), context.number(384)};
     const auto surface =
-        TRY(touch_down(motion, nominal, arguments.number_or(320, 0), arguments.number(260)));
+        TRY(touch_down(motion, nominal, context.number_or(320, 0), context.number(260)));
     points.push_back(
-        {.point = surface, .axes = {false, false, true}, .datum = {0, 0, arguments.number(333)}});
+        {.point = surface, .axes = {false, false, true}, .datum = {0, 0, context.number(333)}});
   }
   return transfer_datum(context, motion.plane(), points, basic_rotation);
 }
@@ -180,7 +179,7 @@ CycleResult<void> set_datum_of_axis(const CycleContext& context, const WorkingPl
   set_length(context.host, 160, surface[axis]);
   DatumPoint found{.point = surface};
   found.axes[axis] = true;
-  found.datum[axis] = context.arguments.number(333);
+  found.datum[axis] = context.number(333);
   return transfer_datum(context, plane, std::array{found});
 }
 

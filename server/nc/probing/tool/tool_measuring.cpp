@@ -97,7 +97,7 @@ CycleResult<void> write_measured(const CycleContext& context, ToolMode mode, mac
 }
 
 CycleResult<ToolProbing> ToolProbing::begin(const CycleContext& context, double clearance_height) {
-  const MachineState& state = context.machine.state();
+  const MachineState& state = context.state();
   TRY(check(state));
   const double height = state.frames.to_machine({0, 0, clearance_height}).z;
   const double start = state.tt.centre.z + tt_parameters::kSafetyDistance;
@@ -106,7 +106,7 @@ CycleResult<ToolProbing> ToolProbing::begin(const CycleContext& context, double 
 
 CycleResult<ToolProbing> ToolProbing::begin_lathe(const CycleContext& context,
                                                   double clearance_height) {
-  const MachineState& state = context.machine.state();
+  const MachineState& state = context.state();
   TRY(check(state, ToolForm::Lathe));
   TRY(check_lathe(state));
   const machine::LatheTool& lathe = *state.active_tool()->lathe;
@@ -119,7 +119,7 @@ CycleResult<ToolProbing> ToolProbing::begin_lathe(const CycleContext& context,
 }
 
 CycleResult<ToolProbing> ToolProbing::begin_here(const CycleContext& context) {
-  const MachineState& state = context.machine.state();
+  const MachineState& state = context.state();
   TRY(check(state));
   const double height = state.position(CoordinateSystem::Machine).linear.z;
   return ToolProbing(context, height, height);

@@ -74,26 +74,23 @@ Form circle_form(std::span<const Point2> centres, const Circle& circle, double s
 
 CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotion& motion,
                                        Side side, Point2 centre) {
-  const Arguments& arguments = context.arguments;
-  const double step = arguments.number(247);
+  const double step = context.number(247);
   if (step == 0) return nc_error(1066);
   if (std::abs(step) < 5) return nc_error(1067);
-  const auto touches =
-      circle_touches({.side = side,
-                      .centre = centre,
-                      .diameter = arguments.number(262),
-                      .start_angle = arguments.number(325),
-                      .step = step,
-                      .points = static_cast<int>(arguments.number_or(423, 4)),
-                      .height = arguments.number(261),
-                      .start_distance = motion.start_distance(arguments.number(320)),
-                      .via_clearance = arguments.whole(301) == 1,
-                      .on_arc = arguments.number_or(365, 1) == 1});
-  const PlannedPlace place{
-      side, {centre.x, centre.y, arguments.number(261)}, arguments.number(262)};
-  const auto contacts = TRY(touch_part(context, motion, touches, arguments.number(260), place));
+  const auto touches = circle_touches({.side = side,
+                                       .centre = centre,
+                                       .diameter = context.number(262),
+                                       .start_angle = context.number(325),
+                                       .step = step,
+                                       .points = static_cast<int>(context.number_or(423, 4)),
+                                       .height = context.number(261),
+                                       .start_distance = motion.start_distance(context.number(320)),
+                                       .via_clearance = context.whole(301) == 1,
+                                       .on_arc = context.number_or(365, 1) == 1});
+  const PlannedPlace place{side, {centre.x, centre.y, context.number(261)}, context.number(262)};
+  const auto contacts = TRY(touch_part(context, motion, touches, context.number(260), place));
   const auto circle = TRY(circle_through(contacts, side, motion.ball_radius()));
-  ProbedCircle probed{circle, circle_form(ball_centres(contacts), circle, arguments.number(325))};
+  ProbedCircle probed{circle, circle_form(ball_centres(contacts), circle, context.number(325))};
   probed.form.touch_uncertainty_um = motion.touch_uncertainty_um();
   return probed;
 }
@@ -112,18 +109,16 @@ CycleResult<std::vector<Point2>> probe_hole_centres(ProbingMotion& motion,
 }
 
 CycleResult<ProbedCircle> probe_bolt_circle(const CycleContext& context, ProbingMotion& motion) {
-  const Arguments& arguments = context.arguments;
-  const double radius = arguments.number(262) / 2;
+  const double radius = context.number(262) / 2;
   std::vector<Point2> nominal;
   for (const int angle : {291, 292, 293}) {
-    const auto [sine, cosine] = machine::sine_cosine(arguments.number(angle));
-    nominal.push_back(
-        {arguments.number(273) + radius * cosine, arguments.number(274) + radius * sine});
+    const auto [sine, cosine] = machine::sine_cosine(context.number(angle));
+    nominal.push_back({context.number(273) + radius * cosine, context.number(274) + radius * sine});
   }
   const auto holes =
-      TRY(probe_hole_centres(motion, nominal, arguments.number(261), arguments.number(260)));
+      TRY(probe_hole_centres(motion, nominal, context.number(261), context.number(260)));
   const auto circle = TRY(fit_circle(holes));
-  return ProbedCircle{circle, circle_form(holes, circle, arguments.number(291))};
+  return ProbedCircle{circle, circle_form(holes, circle, context.number(291))};
 }
 
 }  // namespace fitgauge::probing

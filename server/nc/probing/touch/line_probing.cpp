@@ -43,25 +43,24 @@ double ProbedLine::angle_deg() const {
 }
 
 CycleResult<ProbedLine> probe_line(const CycleContext& context, ProbingMotion& motion) {
-  const Arguments& arguments = context.arguments;
-  const auto direction = TRY(probing_direction(arguments));
-  const double height = arguments.number(261);
-  const std::array nominal{Vec3{arguments.number(263), arguments.number(264), height},
-                           Vec3{arguments.number(265), arguments.number(266), height}};
+  const auto direction = TRY(probing_direction(context));
+  const double height = context.number(261);
+  const std::array nominal{Vec3{context.number(263), context.number(264), height},
+                           Vec3{context.number(265), context.number(266), height}};
   ProbedLine line;
-  line.axis = static_cast<std::size_t>(arguments.whole(272) - 1);
+  line.axis = static_cast<std::size_t>(context.whole(272) - 1);
   line.across = line.axis == 0 || (line.axis == 2 && nominal[0].x == nominal[1].x) ? 1 : 0;
   if (nominal[0][line.across] == nominal[1][line.across]) {
     return nc_error(1081, "both points lie at the same place of the line");
   }
   Vec3 along;
   along[line.axis] = direction;
-  const Vec3 back = along * motion.start_distance(arguments.number(320));
-  const Transit between = arguments.whole(301) == 1 ? Transit::ClearanceHeight : Transit::Straight;
+  const Vec3 back = along * motion.start_distance(context.number(320));
+  const Transit between = context.whole(301) == 1 ? Transit::ClearanceHeight : Transit::Straight;
   const std::array touches{
       Touch{.start = nominal[0] - back, .direction = along},
       Touch{.start = nominal[1] - back, .direction = along, .transit = between}};
-  const auto contacts = TRY(motion.touch_all(touches, arguments.number(260)));
+  const auto contacts = TRY(motion.touch_all(touches, context.number(260)));
   line.first = contacts.front().ball_centre;
   line.second = contacts.back().ball_centre;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -78,16 +77,15 @@ CycleResult<int> probing_direction(const Arguments& arguments) {
 
 CycleResult<TouchedCoordinate> touch_coordinate(const CycleContext& context,
                                                 ProbingMotion& motion) {
-  const Arguments& arguments = context.arguments;
-  const auto direction = TRY(probing_direction(arguments));
+  const auto direction = TRY(probing_direction(context));
   TouchedCoordinate touched{
-      .axis = static_cast<std::size_t>(arguments.whole(272) - 1),
-      .nominal = {arguments.number(263), arguments.number(264), arguments.number(261)},
+      .axis = static_cast<std::size_t>(context.whole(272) - 1),
+      .nominal = {context.number(263), context.number(264), context.number(261)},
       .surface = {}};
   Vec3 along;
   along[touched.axis] = direction;
   touched.surface =
-      TRY(touch(motion, touched.nominal, along, arguments.number(320), arguments.number(260)));
+      TRY(touch(motion, touched.nominal, along, context.number(320), context.number(260)));
   return touched;
 }
 

@@ -46,11 +46,10 @@ CycleFault with_part(CycleFault fault, const CycleContext& context, const Workin
     const bool is_other = here.is_boss != is_outside;
     const bool has_size = place.diameter != 0 && here.diameter != 0;
     if (!is_other && (!has_size || std::abs(here.diameter - place.diameter) <= kFar)) continue;
-    const std::string remedy =
-        !is_other ? fmt::format("Q262 is {} mm", place.diameter)
-        : !place.other_side.empty()
-            ? place.other_side
-            : for_other_side(context.arguments.descriptor().number, here.is_boss);
+    const std::string remedy = !is_other ? fmt::format("Q262 is {} mm", place.diameter)
+                               : !place.other_side.empty()
+                                   ? place.other_side
+                                   : for_other_side(context.descriptor().number, here.is_boss);
     fault.text += fmt::format("; the setup has a {} here: {}", described(here), remedy);
     return fault;
   }

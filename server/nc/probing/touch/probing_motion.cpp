@@ -28,7 +28,7 @@ ProbingMotion::ProbingMotion(const CycleContext& context, const machine::ProbeSy
 CycleResult<ProbingMotion> ProbingMotion::begin(const CycleContext& context) {
   using machine::FaultKind;
   using machine::make_fault;
-  const MachineState& state = context.machine.state();
+  const MachineState& state = context.state();
   if (!state.tool.axis) return from_machine(make_fault(FaultKind::ToolAxisMissing));
   if (state.active_tool() == nullptr) return from_machine(make_fault(FaultKind::NoTool));
   const auto probe = state.probe_system();

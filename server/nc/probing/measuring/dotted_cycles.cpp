@@ -2,12 +2,53 @@
 #include "nc/probing/dotted_parameters.hpp"
 #include "nc/probing/errors.hpp"
 #include "nc/probing/measured_value.hpp"
+#include "nc/probing/measuring/measurement.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 
-namespace fitgauge::probing::cycle_3_4 {
+namespace fitgauge::probing::dotted_cycles {
 
 using machine::FaultKind;
 using namespace parameter;
+
+constexpr std::array k0Parameters{result_parameter(0),
+                                  in_part(0, kWordAxis),
+                                  in_part(0, kWordDirection),
+                                  pre_position(1, ParameterId::WordX),
+                                  pre_position(1, ParameterId::WordY),
+                                  pre_position(1, ParameterId::WordZ)};
+
+constexpr std::array k1Parameters{
+    in_part(1, kWordAxis), in_part(1, kWordAngle), pre_position(2, ParameterId::WordX),
+    pre_position(2, ParameterId::WordY), pre_position(2, ParameterId::WordZ)};
+
+/// Moves the tip in all axes at once to the position in the block, then touches and returns.
+CycleResult<Contact> touch_from_position(const CycleContext& context, const Vec3& direction) {
+  auto motion = TRY(begin_measurement(context));
+  machine::AxisWords position;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto id = static_cast<ParameterId>(static_cast<std::size_t>(ParameterId::WordX) + axis);
+    if (context.has_number(id)) position.values[axis] = context.number(id);
+  }
+  TRY(motion.move_tip(position));
+  return motion.probe(motion.plane().from_input(direction));
+}
+
+CycleResult<void> reference_plane(const CycleContext& context) {
+  const double sign = context.number(ParameterId::WordDirection);
+  if (sign == 0) return nc_error(1042, "the sign of the probing direction is missing");
+  const auto axis = static_cast<machine::Axis>(context.number(ParameterId::WordAxis));
+  const auto contact = TRY(touch_from_position(context, unit_vector(axis) * sign));
+  const WorkingPlane plane = WorkingPlane::across(context.state().tool_axis());
+  const double coordinate = plane.to_input(contact.surface)[index(axis)];
+  set_length(context.host, static_cast<std::uint16_t>(context.number(ParameterId::WordResult)),
+             coordinate);
+  return {};
+}
+
+CycleResult<void> polar(const CycleContext& context) {
+  TRY(touch_from_position(context, angled_direction(context)));
+  return {};
+}
 
 constexpr double kLastResult = 1996;  ///< four parameters follow each other
 
@@ -85,12 +126,11 @@ machine::ProbeMove probe_move(const Arguments& arguments, const Vec3& direction,
 /// Touches from the present position. Four parameters receive the position at contact: X, Y, Z
 /// without compensation of the ball, then 0, or -1 when nothing was touched.
 CycleResult<void> measure(const CycleContext& context, const Vec3& direction, bool goes_on) {
-  const Arguments& arguments = context.arguments;
   TRY(ProbingMotion::begin(context));
-  const auto probe = context.machine.state().probe_system();
-  const auto first = static_cast<std::uint16_t>(arguments.number(ParameterId::WordResult));
+  const auto probe = context.state().probe_system();
+  const auto first = static_cast<std::uint16_t>(context.number(ParameterId::WordResult));
   const auto fourth = static_cast<std::uint16_t>(first + 3);
-  const auto contact = context.machine.probe(probe_move(arguments, direction, probe->data));
+  const auto contact = context.machine.probe(probe_move(context, direction, probe->data));
   if (!contact) {
     const FaultKind kind = contact.error().kind;
     const bool untouched = kind == FaultKind::NoContact || kind == FaultKind::StylusDeflected;
@@ -98,8 +138,8 @@ CycleResult<void> measure(const CycleContext& context, const Vec3& direction, bo
     context.host.set_q(fourth, -1, Unit::None);
     return {};
   }
-  publish_touch(context.machine.state(), context.host, *contact);
-  const bool in_machine = arguments.number(ParameterId::WordReferenceSystem) == 1;
+  publish_touch(context.state(), context.host, *contact);
+  const bool in_machine = context.number(ParameterId::WordReferenceSystem) == 1;
   const Vec3& position = in_machine ? contact->nose.linear : contact->tip;
   for (std::uint16_t axis = 0; axis < 3; ++axis) {
     context.host.set_q(static_cast<std::uint16_t>(first + axis), to_length(position[axis]).to_mm(),
@@ -110,28 +150,35 @@ CycleResult<void> measure(const CycleContext& context, const Vec3& direction, bo
 }
 
 CycleResult<void> measure_along_angle(const CycleContext& context) {
-  return measure(context, angled_direction(context.arguments),
-                 context.arguments.number(ParameterId::WordErrorMode) == 1);
+  return measure(context, angled_direction(context),
+                 context.number(ParameterId::WordErrorMode) == 1);
 }
 
 CycleResult<void> measure_along_vector(const CycleContext& context) {
-  const Arguments& arguments = context.arguments;
-  const Vec3 direction{arguments.number(ParameterId::WordX), arguments.number(ParameterId::WordY),
-                       arguments.number(ParameterId::WordZ)};
+  const Vec3 direction{context.number(ParameterId::WordX), context.number(ParameterId::WordY),
+                       context.number(ParameterId::WordZ)};
   if (direction == Vec3{}) return nc_error(1042, "the probing direction is zero");
   return measure(context, direction, true);
 }
 
-constinit const TouchProbeCycle kCycle3 =
+constexpr TouchProbeCycle kCycles[] = {
+    cycle(0, "REF. PLANE", CycleKind::Measuring, k0Parameters, kTouchResults,
+          errors::kMeasuring | ErrorSet{1042}, reference_plane,
+          "All parameters. The position is that of the tip; the result is compensated."),
+    cycle(1, "POLAR DATUM", CycleKind::Measuring, k1Parameters, kTouchResults, errors::kMeasuring,
+          polar,
+          "All parameters. The position is that of the tip; the angle turns from the named "
+          "axis to the next one (X to Y, Y to Z, Z to X)."),
     cycle(3, "MEASURING", CycleKind::Measuring, k3Parameters, kTouchResults,
           errors::kTouching | ErrorSet{1010, 1011}, measure_along_angle,
           "All parameters. X, Y and Z go to the result parameter and the two after it, 0 or "
           "-1 (no contact) to the fourth; the tip in the active system, the spindle nose "
-          "in the machine system.");
-
-constinit const TouchProbeCycle kCycle4 =
+          "in the machine system."),
     cycle(4, "MEASURING IN 3-D", CycleKind::Measuring, k4Parameters, kTouchResults,
           errors::kWithProbe | ErrorSet{1010, 1011, 1042}, measure_along_vector,
-          "All parameters, results as of cycle 3; without contact the program goes on.");
+          "All parameters, results as of cycle 3; without contact the program goes on.")};
 
-}  // namespace fitgauge::probing::cycle_3_4
+}  // namespace fitgauge::probing::dotted_cycles
+
+constinit const std::span<const fitgauge::probing::TouchProbeCycle>
+    fitgauge::probing::kDottedCycles = dotted_cycles::kCycles;

@@ -1,0 +1,333 @@
+#include "nc/probing/cycles.hpp"
+#include "nc/probing/errors.hpp"
+#include "nc/probing/measuring/measurement.hpp"
+#include "nc/probing/parameters.hpp"
+#include "nc/probing/touch/circle_probing.hpp"
+#include "nc/probing/touch/line_probing.hpp"
+#include "nc/probing/touch/part_here.hpp"
+#include "nc/probing/touch/rectangle_probing.hpp"
+
+namespace fitgauge::probing::size_cycles {
+
+using namespace parameter;
+
+constexpr auto circle_parameters(int max_q, std::string_view max, int min_q, std::string_view min) {
+  return join(circle(coordinate(273, "Nominal centre, main axis"),
+                     coordinate(274, "Nominal centre, secondary axis")),
+              std::array{length(max_q, max, 0), length(min_q, min, 0), kCentreToleranceMain,
+                         kCentreToleranceSecondary, kMeasuringLog, kStopOnTolerance,
+                         kMonitoringTool, kTouches, kTraverse, kReverseTool, kAngleOfIncidence});
+}
+
+constexpr auto k421Parameters =
+    circle_parameters(275, "Maximum size of the hole", 276, "Minimum size of the hole");
+constexpr auto k422Parameters =
+    circle_parameters(277, "Maximum size of the stud", 278, "Minimum size of the stud");
+
+constexpr std::string_view kNotSimulated =
+    "Turning tools, which Q498 and Q531 concern: the values are checked and change nothing.";
+
+CycleResult<void> measure_circle(const CycleContext& context, Side side) {
+  const bool inside = side == Side::Inside;
+  const auto limits = TRY(inside ? size_limits(context, 275, 276) : size_limits(context, 277, 278));
+  auto motion = TRY(begin_measurement(context));
+  const auto probed =
+      TRY(probe_circle(context, motion, side, {context.number(273), context.number(274)}));
+
+  const MeasuredValue diameter{.characteristic = "Diameter",
+                               .role = size_role(side),
+                               .nominal = to_length(context.number(262)),
+                               .measured = to_length(2 * probed.circle.radius),
+                               .limits = limits,
+                               .result_q = 153,
+                               .deviation_q = 163,
+                               .error_too_large = inside ? 1047 : 1049,
+                               .error_too_small = inside ? 1046 : 1048};
+  const auto [centre_main, centre_secondary] = centre_values(context, probed.circle.centre);
+  return finish_measurement(context, {.values = {centre_main, centre_secondary, diameter},
+                                      .measuring_height = to_length(context.number(261)),
+                                      .correction = radius_correction(diameter),
+                                      .form = probed.form});
+}
+
+constexpr std::array k423Parameters{coordinate(273, "Nominal centre, main axis"),
+                                    coordinate(274, "Nominal centre, secondary axis"),
+                                    length(282, "Nominal length, main axis"),
+                                    length(283, "Nominal length, secondary axis"),
+                                    kMeasuringHeight,
+                                    kSetUpClearance,
+                                    kClearanceHeight,
+                                    kMoveToClearance,
+                                    length(284, "Maximum length, main axis", 0),
+                                    length(285, "Minimum length, main axis", 0),
+                                    length(286, "Maximum length, secondary axis", 0),
+                                    length(287, "Minimum length, secondary axis", 0),
+                                    kCentreToleranceMain,
+                                    kCentreToleranceSecondary,
+                                    kMeasuringLog,
+                                    kStopOnTolerance,
+                                    kMonitoringTool};
+
+constexpr std::array<CycleOutput, 11> k423Results{
+    {{151, "Centre, main axis", Unit::Length},
+     {152, "Centre, secondary axis", Unit::Length},
+     {154, "Length, main axis", Unit::Length},
+     {155, "Length, secondary axis", Unit::Length},
+     {161, "Deviation of the centre, main axis", Unit::Length},
+     {162, "Deviation of the centre, secondary axis", Unit::Length},
+     {164, "Deviation of the length, main axis", Unit::Length},
+     {165, "Deviation of the length, secondary axis", Unit::Length},
+     {180, "Good", Unit::None},
+     {181, "Rework", Unit::None},
+     {182, "Reject", Unit::None}}};
+
+/// Both lengths show one oversize of the tool: their mean corrects it, and the larger one decides
+/// on breakage.
+ToolCorrection tool_correction(const MeasuredValue& main, const MeasuredValue& secondary) {
+  ToolCorrection correction = radius_correction(main);
+  const ToolCorrection other = radius_correction(secondary);
+  correction.change = to_length((correction.change + other.change).to_mm() / 2);
+  if (magnitude(other.deviation) > magnitude(correction.deviation)) {
+    correction.deviation = other.deviation;
+  }
+  return correction;
+}
+
+CycleResult<void> measure_rectangle(const CycleContext& context, Side side) {
+  const auto main_limits = TRY(size_limits(context, 284, 285));
+  const auto secondary_limits = TRY(size_limits(context, 286, 287));
+  auto motion = TRY(begin_measurement(context));
+  const std::array nominal{context.number(282), context.number(283)};
+  const auto rectangle = TRY(
+      probe_rectangle(context, motion, side, {context.number(273), context.number(274)}, nominal));
+  const bool inside = side == Side::Inside;
+  const auto value = [&](std::size_t axis, const std::optional<Limits>& limits) {
+    const int error = static_cast<int>(axis) + (inside ? 1050 : 1054);
+    return MeasuredValue{
+        .characteristic = axis == 0 ? "Length, main axis" : "Length, secondary axis",
+        .role = size_role(side),
+        .nominal = to_length(nominal.at(axis)),
+        .measured = to_length(rectangle.length.at(axis)),
+        .limits = limits,
+        .result_q = static_cast<std::uint16_t>(154 + axis),
+        .deviation_q = static_cast<std::uint16_t>(164 + axis),
+        .error_too_large = error + 2,
+        .error_too_small = error};
+  };
+  const MeasuredValue main = value(0, main_limits);
+  const MeasuredValue secondary = value(1, secondary_limits);
+  const auto [centre_main, centre_secondary] = centre_values(context, rectangle.centre);
+  return finish_measurement(context, {.values = {centre_main, centre_secondary, main, secondary},
+                                      .measuring_height = to_length(context.number(261)),
+                                      .correction = tool_correction(main, secondary)});
+}
+
+constexpr std::array k425Parameters{coordinate(328, "Starting point, main axis"),
+                                    coordinate(329, "Starting point, secondary axis"),
+                                    coordinate(310, "Offset of the 2nd measurement, 0 none", 0),
+                                    kMeasuringAxisInPlane,
+                                    kMeasuringHeight,
+                                    kClearanceHeight,
+                                    length(311, "Nominal length"),
+                                    length(288, "Maximum length", 0),
+                                    length(289, "Minimum length", 0),
+                                    kMeasuringLog,
+                                    kStopOnTolerance,
+                                    kMonitoringTool,
+                                    newer(kSetUpClearance),
+                                    newer(kMoveToClearance)};
+
+constexpr std::array k426Parameters{coordinate(263, "1st point, main axis"),
+                                    coordinate(264, "1st point, secondary axis"),
+                                    coordinate(265, "2nd point, main axis"),
+                                    coordinate(266, "2nd point, secondary axis"),
+                                    kMeasuringAxisInPlane,
+                                    kMeasuringHeight,
+                                    kSetUpClearance,
+                                    kClearanceHeight,
+                                    length(311, "Nominal length"),
+                                    length(288, "Maximum length", 0),
+                                    length(289, "Minimum length", 0),
+                                    kMeasuringLog,
+                                    kStopOnTolerance,
+                                    kMonitoringTool};
+
+constexpr std::array<CycleOutput, 6> kWidthResults{
+    {{156, "Measured length", Unit::Length},
+     {157, "Position of the centre line", Unit::Length},
+     {166, "Deviation of the length", Unit::Length},
+     {180, "Good", Unit::None},
+     {181, "Rework", Unit::None},
+     {182, "Reject", Unit::None}}};
+
+std::size_t measuring_axis(const Arguments& arguments) {
+  return static_cast<std::size_t>(arguments.whole(272) - 1);
+}
+
+/// From inside the slot: first in the positive direction; then in the negative one, moved along the
+/// slot by Q310.
+std::array<Touch, 2> slot_touches(const Arguments& arguments) {
+  const std::size_t axis = measuring_axis(arguments);
+  const Vec3 start{arguments.number(328), arguments.number(329), arguments.number(261)};
+  Vec3 up;
+  up[axis] = 1;
+  Vec3 offset;
+  offset[1 - axis] = arguments.number(310);
+  const bool via_clearance = arguments.whole(301) == 1 && arguments.number(310) != 0;
+  return {Touch{.start = start, .direction = up},
+          Touch{.start = start + offset,
+                .direction = -up,
+                .transit = via_clearance ? Transit::ClearanceHeight : Transit::Straight}};
+}
+
+/// From outside, each towards the other point.
+std::array<Touch, 2> ridge_touches(const Arguments& arguments, double start_distance) {
+  const std::size_t axis = measuring_axis(arguments);
+  const double height = arguments.number(261);
+  const Vec3 first{arguments.number(263), arguments.number(264), height};
+  const Vec3 second{arguments.number(265), arguments.number(266), height};
+  Vec3 towards;
+  towards[axis] = first[axis] < second[axis] ? 1 : -1;
+  return {Touch{.start = first - towards * start_distance, .direction = towards},
+          Touch{.start = second + towards * start_distance,
+                .direction = -towards,
+                .transit = Transit::ClearanceHeight}};
+}
+
+CycleResult<void> measure_width(const CycleContext& context, Side side) {
+  const auto limits = TRY(size_limits(context, 288, 289));
+  auto motion = TRY(begin_measurement(context));
+  const bool inside = side == Side::Inside;
+  const auto touches = inside ? slot_touches(context)
+                              : ridge_touches(context, motion.start_distance(context.number(320)));
+  const std::size_t axis = measuring_axis(context);
+  const Vec3 centre = (touches[0].start + touches[1].start) * 0.5;
+  const auto contacts = TRY(touch_part(context, motion, touches, context.number(260),
+                                       width_place(side, centre, axis, context.number(311))));
+
+  const double first = contacts.front().surface[axis];
+  const double second = contacts.back().surface[axis];
+  set_length(context.host, 157, (first + second) / 2);
+  const MeasuredValue size{.characteristic = "Length",
+                           .role = size_role(side),
+                           .nominal = to_length(context.number(311)),
+                           .measured = to_length(std::abs(first - second)),
+                           .limits = limits,
+                           .result_q = 156,
+                           .deviation_q = 166,
+                           .error_too_large = inside ? 1058 : 1060,
+                           .error_too_small = inside ? 1059 : 1061};
+  return finish_measurement(context, {.values = {size},
+                                      .measuring_height = to_length(context.number(261)),
+                                      .correction = radius_correction(size)});
+}
+
+constexpr std::array k427Parameters{coordinate(263, "Point, main axis"),
+                                    coordinate(264, "Point, secondary axis"),
+                                    kMeasuringHeight,
+                                    kSetUpClearance,
+                                    kMeasuringAxis,
+                                    kDirection,
+                                    kClearanceHeight,
+                                    kMeasuringLog,
+                                    coordinate(288, "Maximum coordinate", 0),
+                                    coordinate(289, "Minimum coordinate", 0),
+                                    kStopOnTolerance,
+                                    kMonitoringTool,
+                                    kReverseTool,
+                                    kAngleOfIncidence};
+
+constexpr std::array<CycleOutput, 5> k427Results{
+    {{160, "Measured coordinate", Unit::Length},
+     {168, "Deviation of the coordinate", Unit::Length},
+     {180, "Good", Unit::None},
+     {181, "Rework", Unit::None},
+     {182, "Reject", Unit::None}}};
+
+CycleResult<void> measure_coordinate(const CycleContext& context) {
+  const auto limits = TRY(size_limits(context, 288, 289));
+  auto motion = TRY(begin_measurement(context));
+  const auto touched = TRY(touch_coordinate(context, motion));
+
+  const MeasuredValue coordinate{.characteristic = "Coordinate",
+                                 .role = ValueRole::ShaftSize,
+                                 .nominal = to_length(touched.nominal[touched.axis]),
+                                 .measured = to_length(touched.surface[touched.axis]),
+                                 .limits = limits,
+                                 .result_q = 160,
+                                 .deviation_q = 168};
+  const Length deviation = coordinate.deviation();
+  const ToolCorrection correction = touched.axis == 2
+                                        ? length_correction(deviation)
+                                        : face_correction(deviation, context.whole(267));
+  return finish_measurement(context, {.values = {coordinate},
+                                      .measuring_height = to_length(context.number(261)),
+                                      .correction = correction});
+}
+
+constexpr std::array k430Parameters = join(
+    kBoltCircle, std::array{length(288, "Maximum diameter", 0), length(289, "Minimum diameter", 0),
+                            kCentreToleranceMain, kCentreToleranceSecondary, kMeasuringLog,
+                            kStopOnTolerance, kMonitoringTool});
+
+CycleResult<void> measure_bolt_circle(const CycleContext& context) {
+  const auto limits = TRY(size_limits(context, 288, 289));
+  auto motion = TRY(begin_measurement(context));
+  const auto probed = TRY(probe_bolt_circle(context, motion));
+
+  const MeasuredValue diameter{.characteristic = "Diameter",
+                               .role = ValueRole::HoleSize,
+                               .nominal = to_length(context.number(262)),
+                               .measured = to_length(2 * probed.circle.radius),
+                               .limits = limits,
+                               .result_q = 153,
+                               .deviation_q = 163,
+                               .error_too_large = 1062,
+                               .error_too_small = 1063};
+  const auto [centre_main, centre_secondary] = centre_values(context, probed.circle.centre);
+  // The place of holes does not depend on the tool's radius: the tool is only watched for breakage.
+  return finish_measurement(context,
+                            {.values = {centre_main, centre_secondary, diameter},
+                             .measuring_height = to_length(context.number(261)),
+                             .correction = ToolCorrection{.deviation = diameter.deviation()},
+                             .form = probed.form});
+}
+
+constexpr TouchProbeCycle kCycles[] = {
+    cycle(421, "MEASURE HOLE", CycleKind::Measuring, k421Parameters, kCircleResults,
+          errors::kMeasuring | errors::kCircle | errors::kJudged | errors::kCentre |
+              ErrorSet{1046, 1047},
+          with<measure_circle, Side::Inside>, "All other parameters.", kNotSimulated),
+    cycle(422, "MEAS. CIRCLE OUTSIDE", CycleKind::Measuring, k422Parameters, kCircleResults,
+          errors::kMeasuring | errors::kCircle | errors::kJudged | errors::kCentre |
+              ErrorSet{1048, 1049},
+          with<measure_circle, Side::Outside>, "All other parameters.", kNotSimulated),
+    cycle(423, "MEAS. RECTAN. INSIDE", CycleKind::Measuring, k423Parameters, k423Results,
+          errors::kMeasuring | errors::kJudged | errors::kCentre | ErrorSet{1050, 1051, 1052, 1053},
+          with<measure_rectangle, Side::Inside>,
+          "All parameters; moves at measuring height are paraxial."),
+    cycle(424, "MEAS. RECTAN. OUTS.", CycleKind::Measuring, k423Parameters, k423Results,
+          errors::kMeasuring | errors::kJudged | errors::kCentre | ErrorSet{1054, 1055, 1056, 1057},
+          with<measure_rectangle, Side::Outside>,
+          "All parameters; moves at measuring height are paraxial."),
+    cycle(425, "MEASURE INSIDE WIDTH", CycleKind::Measuring, k425Parameters, kWidthResults,
+          errors::kMeasuring | errors::kJudged | ErrorSet{1058, 1059},
+          with<measure_width, Side::Inside>,
+          "All parameters; both touches begin at the starting point, so Q320 moves nothing."),
+    cycle(426, "MEASURE RIDGE WIDTH", CycleKind::Measuring, k426Parameters, kWidthResults,
+          errors::kMeasuring | errors::kJudged | ErrorSet{1060, 1061},
+          with<measure_width, Side::Outside>,
+          "All parameters; each point is touched towards the other one."),
+    cycle(427, "MEASURE COORDINATE", CycleKind::Measuring, k427Parameters, k427Results,
+          errors::kMeasuring | errors::kJudged | ErrorSet{1042, 1072}, measure_coordinate,
+          "All other parameters. The nominal coordinate is that of the point (Q263, Q264, "
+          "Q261).",
+          kNotSimulated),
+    cycle(430, "MEAS. BOLT HOLE CIRC", CycleKind::Measuring, k430Parameters, kCircleResults,
+          errors::kMeasuring | errors::kJudged | errors::kCentre | ErrorSet{1062, 1063, 1081},
+          measure_bolt_circle, "All parameters; Q330 watches for breakage only.")};
+
+}  // namespace fitgauge::probing::size_cycles
+
+constinit const std::span<const fitgauge::probing::TouchProbeCycle> fitgauge::probing::kSizeCycles =
+    size_cycles::kCycles;
