@@ -148,8 +148,7 @@ Length combined_uncertainty(Length u, std::int64_t added_pm) {
 std::span<const Material> materials() { return kMaterials; }
 
 const Material* find_material(std::string_view name) {
-  const auto found = std::find_if(kMaterials.begin(), kMaterials.end(),
-                                  [&](const Material& m) { return m.name == name; });
+  const auto found = std::ranges::find(kMaterials, name, &Material::name);
   return found == kMaterials.end() ? nullptr : &*found;
 }
 

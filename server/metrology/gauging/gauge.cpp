@@ -5,13 +5,12 @@
 namespace fitgauge::gauging {
 namespace {
 
-constexpr std::array<std::string_view, kVerdicts> kWords = {"good", "rework", "reject",
-                                                            "indeterminate", "unjudged"};
+constexpr std::string_view kWords[kVerdicts] = {"good", "rework", "reject", "indeterminate",
+                                                "unjudged"};
 
 constexpr int kFactorScale = 6;
 
-constexpr std::array kRuleWords = {std::string_view("simple"), std::string_view("guard_band"),
-                                   std::string_view("conformance")};
+constexpr std::string_view kRuleWords[] = {"simple", "guard_band", "conformance"};
 
 /// A guard band k·u in millionths of a nanometre needs more than 64 bits.
 __extension__ using Wide = __int128;
@@ -37,7 +36,7 @@ Verdict conformance_verdict(const Beyond& beyond, const ConformanceLimits& limit
 
 }  // namespace
 
-std::string_view word(Verdict verdict) { return kWords[static_cast<std::size_t>(verdict)]; }
+std::string_view word(Verdict verdict) { return word_of(verdict, kWords); }
 
 std::optional<Verdict> verdict_from_word(std::string_view text) {
   return enum_of<Verdict>(text, kWords);
@@ -105,9 +104,7 @@ bool has_no_acceptance(const DecisionRule& rule, Length tolerance) {
              Wide{tolerance.count()} * 1'000'000;
 }
 
-std::string_view word(DecisionRule::Kind kind) {
-  return kRuleWords[static_cast<std::size_t>(kind)];
-}
+std::string_view word(DecisionRule::Kind kind) { return word_of(kind, kRuleWords); }
 
 std::optional<DecisionRule::Kind> rule_from_word(std::string_view text) {
   return enum_of<DecisionRule::Kind>(text, kRuleWords);
@@ -116,11 +113,6 @@ std::optional<DecisionRule::Kind> rule_from_word(std::string_view text) {
 GaugingResult gauge(const Beyond& beyond, Length upper_limit, Length lower_limit, Length measured,
                     const DecisionRule& rule) {
   assert(lower_limit <= upper_limit);
-  constexpr Wide kMillion = 1'000'000;
-  const bool guarded = rule.kind() == DecisionRule::Kind::GuardBand;
-  const Wide guard =
-      guarded ? Wide{rule.standard_uncertainty().count()} * rule.coverage_factor().millionths()
-              : Wide{0};
   GaugingResult result;
   if (measured > upper_limit) result.excess = measured - upper_limit;
   if (measured < lower_limit) result.excess = measured - lower_limit;
@@ -128,6 +120,11 @@ GaugingResult gauge(const Beyond& beyond, Length upper_limit, Length lower_limit
     result.verdict = conformance_verdict(beyond, {upper_limit, lower_limit}, measured, rule);
     return result;
   }
+  constexpr Wide kMillion = 1'000'000;
+  const bool guarded = rule.kind() == DecisionRule::Kind::GuardBand;
+  const Wide guard =
+      guarded ? Wide{rule.standard_uncertainty().count()} * rule.coverage_factor().millionths()
+              : Wide{0};
   result.verdict = verdict(beyond, upper_limit.count() * kMillion, lower_limit.count() * kMillion,
                            measured.count() * kMillion, guard);
   return result;

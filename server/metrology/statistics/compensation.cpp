@@ -1,5 +1,7 @@
 #include "metrology/statistics/compensation.hpp"
 
+#include "base/text.hpp"
+
 namespace fitgauge::metrology {
 namespace {
 
@@ -152,8 +154,7 @@ std::int64_t parts_until(double level, double variance, double wear, double wand
 }  // namespace
 
 std::string_view word(CompensationState state) {
-  constexpr std::array<std::string_view, 3> kWords = {"propose", "wait", "unstable"};
-  return kWords[static_cast<std::size_t>(state)];
+  return word_of(state, {"propose", "wait", "unstable"});
 }
 
 Compensation propose_offset(std::span<const MadePart> parts, double half_tolerance, double cost) {

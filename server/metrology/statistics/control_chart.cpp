@@ -1,17 +1,12 @@
 #include "metrology/statistics/control_chart.hpp"
 
+#include "base/text.hpp"
 #include "metrology/statistics/summary.hpp"
 
 namespace fitgauge::metrology {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, ChartKind>, 5> kChartWords = {{
-    {"i_mr", ChartKind::IMr},
-    {"xbar_r", ChartKind::XbarR},
-    {"xbar_s", ChartKind::XbarS},
-    {"ewma", ChartKind::Ewma},
-    {"cusum", ChartKind::Cusum},
-}};
+constexpr std::string_view kChartWords[] = {"i_mr", "xbar_r", "xbar_s", "ewma", "cusum"};
 
 constexpr double kWidth = 3;  ///< of the limits, in standard deviations of a point
 
@@ -75,15 +70,19 @@ class Source {
     return sum / static_cast<long double>(phase_.to - phase_.from);
   }
 
+  /// A point for each group from `first` on.
+  std::vector<double> points(std::size_t first, const auto& point) const {
+    std::vector<double> made;
+    made.reserve(count());
+    for (std::size_t i = first; i < count(); ++i) made.push_back(point(i));
+    return made;
+  }
   std::vector<double> means() const {
-    std::vector<double> points;
-    points.reserve(count());
-    for (std::size_t i = 0; i < count(); ++i) {
+    return points(0, [this](std::size_t i) {
       Wide sum = 0;
       for (const Wide value : group(i)) sum += value;
-      points.push_back(point(sum, size()));
-    }
-    return points;
+      return point(sum, size());
+    });
   }
 
  private:
@@ -105,54 +104,26 @@ struct Spread {
   double per_deviation = 1;  ///< standard deviation of the statistic for a standard deviation of 1
 };
 
-Spread moving_ranges(const Source& source) {
-  Spread spread{.name = "mr",
-                .points = {},
-                .per_mean = kMovingRangeDivisor,
-                .per_deviation = range_constants(2).d3};
-  spread.points.reserve(source.count());
-  const Phase phase = source.phase();
-  ExactSum in_phase;
-  for (std::size_t i = 1; i < source.count(); ++i) {
-    const Wide range = moving_range(source.counts(), i);
-    if (phase.from < i && i < phase.to) in_phase.add(range);
-    spread.points.push_back(source.point(range, 1));
-  }
-  spread.mean = source.in_units(in_phase.value(), phase.to - phase.from - 1);
-  return spread;
-}
-
-Spread ranges(const Source& source) {
-  const RangeConstants constants = range_constants(source.size());
-  Spread spread{.name = "r",
-                .points = {},
-                .mean = source.mean_range(),
-                .per_mean = constants.d2,
-                .per_deviation = constants.d3};
-  spread.points.reserve(source.count());
-  for (std::size_t i = 0; i < source.count(); ++i) {
-    spread.points.push_back(source.point(range_of(source.group(i)), 1));
-  }
-  return spread;
-}
-
-Spread deviations(const Source& source) {
-  const double c = c4(source.size());
-  Spread spread{.name = "s",
-                .points = {},
-                .mean = source.mean_deviation(),
-                .per_mean = c,
-                .per_deviation = std::sqrt(1 - c * c)};
-  spread.points.reserve(source.count());
-  for (std::size_t i = 0; i < source.count(); ++i) {
-    spread.points.push_back(static_cast<double>(source.deviation(i)));
-  }
-  return spread;
-}
-
 Spread spread_of(const Source& source, ChartKind kind) {
-  if (source.size() == 1) return moving_ranges(source);
-  return kind == ChartKind::XbarS ? deviations(source) : ranges(source);
+  if (source.size() == 1) {
+    const Phase phase = source.phase();
+    ExactSum in_phase;
+    auto points = source.points(1, [&](std::size_t i) {
+      const Wide range = moving_range(source.counts(), i);
+      if (phase.from < i && i < phase.to) in_phase.add(range);
+      return source.point(range, 1);
+    });
+    return {"mr", std::move(points), source.in_units(in_phase.value(), phase.to - phase.from - 1),
+            kMovingRangeDivisor, range_constants(2).d3};
+  }
+  if (kind == ChartKind::XbarS) {
+    const auto deviation = [&](std::size_t i) { return static_cast<double>(source.deviation(i)); };
+    const double c = c4(source.size());
+    return {"s", source.points(0, deviation), source.mean_deviation(), c, std::sqrt(1 - c * c)};
+  }
+  const auto range = [&](std::size_t i) { return source.point(range_of(source.group(i)), 1); };
+  const RangeConstants constants = range_constants(source.size());
+  return {"r", source.points(0, range), source.mean_range(), constants.d2, constants.d3};
 }
 
 Chart spread_chart(Spread spread, long double sigma) {
@@ -262,13 +233,10 @@ Result<Phase> phase_of(const Subgroups& data, const ChartPlan& plan) {
 
 }  // namespace
 
-std::string_view word(ChartKind kind) { return kChartWords[static_cast<std::size_t>(kind)].first; }
+std::string_view word(ChartKind kind) { return word_of(kind, kChartWords); }
 
 std::optional<ChartKind> chart_kind_from_word(std::string_view text) {
-  for (const auto& [name, kind] : kChartWords) {
-    if (name == text) return kind;
-  }
-  return std::nullopt;
+  return enum_of<ChartKind>(text, kChartWords);
 }
 
 Result<ControlCharts> make_charts(const Subgroups& data, const ChartPlan& plan) {

@@ -1,3 +1,4 @@
+#include "base/text.hpp"
 #include "metrology/statistics/capability.hpp"
 
 #include "metrology/statistics/process_model.hpp"
@@ -10,9 +11,6 @@ namespace {
 constexpr std::size_t kMostClasses = 4096;
 /// A class of positive values ends below this multiple of its start: logarithms differ little.
 constexpr double kWidestClass = 1.01;
-
-constexpr std::array<std::string_view, 6> kWords = {"normal",  "folded_normal", "rayleigh",
-                                                    "weibull", "lognormal",     "mixture"};
 
 /// Number of values in a class, and their mean; a class ends in the middle between two values.
 struct Place {
@@ -250,7 +248,9 @@ std::vector<FittedDistribution> candidates(const Places& places) {
 
 }  // namespace
 
-std::string_view word(ProcessDistribution name) { return kWords[static_cast<std::size_t>(name)]; }
+std::string_view word(ProcessDistribution name) {
+  return word_of(name, {"normal", "folded_normal", "rayleigh", "weibull", "lognormal", "mixture"});
+}
 
 double FittedDistribution::below(double x) const {
   const auto& [a, b, c, d, e] = parameters;

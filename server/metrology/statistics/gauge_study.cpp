@@ -1,22 +1,13 @@
 #include "metrology/statistics/gauge_study.hpp"
 
+#include "base/text.hpp"
 #include "metrology/statistics/summary.hpp"
 #include "metrology/statistics/zone_rules.hpp"
 
 namespace fitgauge::metrology {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, StudyMethod>, 4> kMethods = {{
-    {"anova", StudyMethod::Anova},
-    {"average_range", StudyMethod::AverageRange},
-    {"type3", StudyMethod::Type3},
-    {"nested", StudyMethod::Nested},
-}};
-constexpr std::array<std::pair<std::string_view, StudyModel>, 3> kModels = {{
-    {"auto", StudyModel::Auto},
-    {"interaction", StudyModel::Interaction},
-    {"pooled", StudyModel::Pooled},
-}};
+constexpr std::string_view kMethods[] = {"anova", "average_range", "type3", "nested"};
 
 Error too_few(std::string message) { return {ErrorCode::StatisticsTooFew, std::move(message)}; }
 
@@ -331,24 +322,15 @@ GaugeStudy average_and_range(const Cells& s, std::size_t trials) {
   return study;
 }
 
-template <class Enum, std::size_t n>
-std::optional<Enum> from_word(const std::array<std::pair<std::string_view, Enum>, n>& words,
-                              std::string_view text) {
-  for (const auto& [name, value] : words) {
-    if (name == text) return value;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::optional<StudyMethod> study_method_from_word(std::string_view text) {
-  return from_word(kMethods, text);
+  return enum_of<StudyMethod>(text, kMethods);
 }
-std::string_view word(StudyMethod method) {
-  return kMethods[static_cast<std::size_t>(method)].first;
+std::string_view word(StudyMethod method) { return word_of(method, kMethods); }
+std::string_view word(StudyModel model) {
+  return word_of(model, {"auto", "interaction", "pooled"});
 }
-std::string_view word(StudyModel model) { return kModels[static_cast<std::size_t>(model)].first; }
 
 Result<Type1Study> study_type1(const Decimals& values, const Exact& reference,
                                const Exact& tolerance, Type1Rule rule) {

@@ -1,13 +1,11 @@
 #include "metrology/statistics/uncertainty.hpp"
 
 #include "base/allowance.hpp"
+#include "base/text.hpp"
 #include "metrology/statistics/summary.hpp"
 
 namespace fitgauge::metrology {
 namespace {
-
-constexpr std::array<std::string_view, 5> kDistributionWords = {"normal", "rectangular",
-                                                                "triangular", "u_shaped", "t"};
 
 Error impossible() {
   return {ErrorCode::FieldInvalid,
@@ -155,7 +153,7 @@ bool are_settled(std::span<const MonteCarloResult> sequences, int digits) {
 }  // namespace
 
 std::string_view word(Distribution distribution) {
-  return kDistributionWords[static_cast<std::size_t>(distribution)];
+  return word_of(distribution, {"normal", "rectangular", "triangular", "u_shaped", "t"});
 }
 
 std::optional<double> standard_uncertainty_of(Distribution distribution, double half_width) {
