@@ -4,6 +4,7 @@
 #include "nc/iso/parser.hpp"
 #include "nc/iso/printer.hpp"
 #include "nc/klartext/printer.hpp"
+#include "../support/same_program.hpp"
 
 using namespace fitgauge::klartext;
 

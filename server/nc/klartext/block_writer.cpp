@@ -1,6 +1,7 @@
 #include "nc/klartext/block_writer.hpp"
 
 #include "base/text.hpp"
+#include "nc/klartext/operator_names.hpp"
 
 namespace fitgauge::klartext {
 namespace {
@@ -119,6 +120,89 @@ void BlockWriter::words(Slice<Word> words, std::string_view mark, LetterSet befo
     word(next);
   }
   if (!marked) write(mark);
+}
+
+BlockWriter::Level BlockWriter::level_of(const Expr& expr) const {
+  if (const auto* literal = std::get_if<double>(&expr)) {
+    return std::signbit(*literal) ? Level::Signed : Level::Alone;
+  }
+  const auto* index = std::get_if<NodeIndex>(&expr);
+  if (index == nullptr) return Level::Alone;
+  switch (program_.node(*index).op) {
+    case Operator::Concat: return Level::Concat;
+    case Operator::Add:
+    case Operator::Subtract: return Level::Sum;
+    case Operator::Multiply:
+    case Operator::Divide:
+    case Operator::Modulo: return Level::Product;
+    case Operator::Power: return Level::Power;
+    case Operator::Minus: return Level::Signed;
+    default: return Level::Alone;
+  }
+}
+
+void BlockWriter::expression(const Expr& expr, Level least) {
+  const bool parentheses = level_of(expr) < least;
+  if (parentheses) out_ += "( ";
+  if (const auto* literal = std::get_if<double>(&expr)) {
+    number(*literal);
+  } else if (const auto* reference = std::get_if<QRef>(&expr)) {
+    parameter(*reference);
+  } else if (const auto* text = std::get_if<Text>(&expr)) {
+    quoted(*text);
+  } else if (const auto* index = std::get_if<NodeIndex>(&expr)) {
+    node(*index);
+  }
+  if (parentheses) out_ += " )";
+}
+
+void BlockWriter::node(NodeIndex index) {
+  const Node& node = program_.node(index);
+  const auto operands = program_.operands(index);
+  const auto binary = [&](Level left, std::string_view sign, Level right) {
+    expression(operands[0], left);
+    write(sign);
+    expression(operands[1], right);
+  };
+  switch (node.op) {
+    case Operator::Pi: write("PI"); return;
+    case Operator::Concat: return binary(Level::Concat, " || ", Level::Sum);
+    case Operator::Add: return binary(Level::Sum, " + ", Level::Product);
+    case Operator::Subtract: return binary(Level::Sum, " - ", Level::Product);
+    case Operator::Multiply: return binary(Level::Product, " * ", Level::Power);
+    case Operator::Divide: return binary(Level::Product, " / ", Level::Power);
+    case Operator::Modulo: return binary(Level::Product, " % ", Level::Power);
+    case Operator::Power: return binary(Level::Signed, " ^ ", Level::Power);
+    case Operator::Minus:
+      write("-");
+      expression(operands[0], Level::Alone);
+      return;
+    default: break;
+  }
+  for (const FunctionName& function : kFunctions) {
+    if (function.op != node.op) continue;
+    write(function.name).write(" ");
+    return expression(operands[0], Level::Signed);
+  }
+  string_function(node);
+}
+
+void BlockWriter::string_function(const Node& node) {
+  for (const StringFunction& function : kStringFunctions) {
+    if (function.op != node.op) continue;
+    const auto operands = program_.view(node.operands);
+    write(function.name).write("(");
+    for (std::size_t i = 0; i < function.argument_count; ++i) {
+      if (is_absent(operands[i])) continue;
+      write(" ").write(function.arguments[i].prefix);
+      if (function.arguments[i].prefix == "DAT") {
+        signed_value(operands[i]);
+      } else {
+        value(operands[i]);
+      }
+    }
+    write(" )");
+  }
 }
 
 }  // namespace fitgauge::klartext

@@ -42,8 +42,6 @@ class BlockWriter {
   Level level_of(const Expr& expr) const;
   void expression(const Expr& expr, Level least);
   void node(NodeIndex index);
-  void binary(const Expr& left, Level left_least, std::string_view sign, const Expr& right,
-              Level right_least);
   void string_function(const Node& node);
   void path_piece(const Expr& piece);
 

@@ -120,8 +120,6 @@ struct Node {
   Operator op = Operator::Pi;
   std::uint16_t height = 1;  ///< of the tree below it, at most kDeepestExpression
   Slice<Expr> operands{};
-
-  friend bool operator==(const Node&, const Node&) = default;
 };
 
 }  // namespace fitgauge::klartext

@@ -2,7 +2,6 @@
 
 #include "nc/klartext/parser_rules.hpp"
 #include "nc/klartext/parser_words.hpp"
-#include "nc/klartext/statement_writer.hpp"
 
 /// The plain forms of Klartext, each described once: the parser reads a statement along its form()
 /// and the printer writes it along the same one. `io` is a FormReader or a FormWriter.
@@ -56,46 +55,6 @@ class FormReader {
   BlockReader& in_;
 };
 
-/// Writes the members of a form, each after a blank.
-class FormWriter {
- public:
-  explicit FormWriter(BlockWriter& out) : out_(out) {}
-
-  FormWriter& head(std::string_view words) { return out_.write(words), *this; }
-  FormWriter& fn(unsigned number) { return write_fn(out_, number), *this; }
-  FormWriter& word(std::string_view word) { return blank().write(word), *this; }
-  FormWriter& mark(char c) { return word({&c, 1}); }
-  FormWriter& maybe(char c) { return mark(c); }
-  FormWriter& joined(char c) { return mark(c).join(); }
-  FormWriter& either(bool is_first, std::string_view first, std::string_view second) {
-    return word(is_first ? first : second).join();
-  }
-  FormWriter& number(const Expr& value) { return blank().value(value), *this; }
-  FormWriter& signed_number(const Expr& value) { return blank().signed_value(value), *this; }
-  FormWriter& path(const Expr& path, char = ';') { return blank().path(path), *this; }
-  FormWriter& parameter(QRef parameter) { return blank().parameter(parameter), *this; }
-  FormWriter& target(QRef target) { return parameter(target); }
-  FormWriter& items(Slice<Expr> items) { return blank().items(items), *this; }
-  FormWriter& cell(const Expr& cell) { return write_cell(blank(), cell), *this; }
-  FormWriter& address(const Expr& address) { return write_address(blank(), address), *this; }
-  FormWriter& label(const Label& label) { return blank().label(label), *this; }
-  FormWriter& repeat(const Expr& count) {
-    return is_absent(count) ? *this : word("REP").join().number(count);
-  }
-  FormWriter& words(Slice<Word> words, LetterSet) { return out_.words(words), *this; }
-  FormWriter& rest(Text text) { return blank().write(text), *this; }
-
- private:
-  FormWriter& join() { return joined_ = true, *this; }
-  BlockWriter& blank() {
-    if (!std::exchange(joined_, false)) out_.write(" ");
-    return out_;
-  }
-
-  BlockWriter& out_;
-  bool joined_ = false;
-};
-
 void form(auto& io, Stop& stop) { io.head("STOP").words(stop.words, LetterSet(Letter::M)); }
 void form(auto& io, LabelDefinition& definition) { io.head("LBL").label(definition.label); }
 void form(auto& io, LabelCall& call) { io.head("CALL LBL").label(call.label).repeat(call.repeat); }
@@ -143,13 +102,6 @@ Statement read_form(BlockReader& in, S statement = {}) {
   FormReader io(in);
   form(io, statement);
   return statement;
-}
-
-template <class S>
-requires requires(FormWriter& io, S& statement) { form(io, statement); }
-void write_block(BlockWriter& out, S statement) {
-  FormWriter io(out);
-  form(io, statement);
 }
 
 }  // namespace fitgauge::klartext

@@ -74,7 +74,6 @@ using MaskPiece = std::variant<std::string, MaskPlaceholder>;
 /// `"text %9.4LF", Q1;`: one line of output.
 struct MaskFormat {
   std::vector<MaskPiece> pieces{};
-  friend bool operator==(const MaskFormat&, const MaskFormat&) = default;
 };
 
 enum class MaskControlKind : std::uint8_t {
@@ -90,13 +89,11 @@ enum class MaskControlKind : std::uint8_t {
 struct MaskControl {
   MaskControlKind kind = MaskControlKind::Close;
   int kilobytes = 0;  ///< of AppendMax
-  friend bool operator==(const MaskControl&, const MaskControl&) = default;
 };
 
 struct MaskLine {
   std::uint32_t line = 1;  ///< in the file
   std::variant<MaskFormat, MaskControl, MaskLanguage> content{};
-  friend bool operator==(const MaskLine&, const MaskLine&) = default;
 };
 
 /// A mask of FN 16: F-PRINT. Immutable once parsed.

@@ -15,40 +15,33 @@ enum class Unit : std::uint8_t { Millimetre, Inch };
 struct BeginProgram {
   Text name{};
   Unit unit = Unit::Millimetre;
-  friend bool operator==(const BeginProgram&, const BeginProgram&) = default;
 };
 
 /// `END PGM name MM`; the last block.
 struct EndProgram {
   Text name{};
   Unit unit = Unit::Millimetre;
-  friend bool operator==(const EndProgram&, const EndProgram&) = default;
 };
 
 /// A block of nothing but its comment or its number.
-struct Empty {
-  friend bool operator==(const Empty&, const Empty&) = default;
-};
+struct Empty {};
 
 /// `* - text`: an outline entry; level 0 is the outermost.
 struct Structure {
   Text text{};
   std::uint8_t level = 0;
-  friend bool operator==(const Structure&, const Structure&) = default;
 };
 
 /// `ERROR = raw text`: the control stores it for an unreadable line. The parser makes one for every
 /// block with an error.
 struct ErrorBlock {
   Text text{};
-  friend bool operator==(const ErrorBlock&, const ErrorBlock&) = default;
 };
 
 /// Something real controls can do and this one cannot: fails when it is reached.
 struct Unsupported {
   Text feature{};  ///< its name for the message: "FK contour programming", "SQL"
   Text text{};     ///< the block as written, without number and comment
-  friend bool operator==(const Unsupported&, const Unsupported&) = default;
 };
 
 enum class BlankKind : std::uint8_t { Minimum, Maximum, Cylinder, Rotation, File };
@@ -59,7 +52,6 @@ struct BlankForm {
   std::optional<Axis> tool_axis{};
   Slice<Word> words{};
   Expr file{};  ///< Text or QS of FILE, otherwise Absent
-  friend bool operator==(const BlankForm&, const BlankForm&) = default;
 };
 
 // --- tools and motion
@@ -69,14 +61,12 @@ struct ToolCall {
   Expr tool{};  ///< a number, a Text name or a parameter; Absent when only speed or axis change
   std::optional<Axis> axis{};
   Slice<Word> words{};
-  friend bool operator==(const ToolCall&, const ToolCall&) = default;
 };
 
 /// `TOOL DEF n`: preselection, or the old definition `TOOL DEF 1 L+0 R+5`.
 struct ToolDefinition {
   Expr tool{};
   Slice<Word> words{};
-  friend bool operator==(const ToolDefinition&, const ToolDefinition&) = default;
 };
 
 enum class Path : std::uint8_t {
@@ -96,19 +86,16 @@ struct Motion {
   RadiusCompensation compensation = RadiusCompensation::Unchanged;
   Rotation rotation = Rotation::Unspecified;
   Slice<Word> words{};
-  friend bool operator==(const Motion&, const Motion&) = default;
 };
 
 /// A block with only M functions: `M3`, `M140 MB MAX`.
 struct MFunctions {
   Slice<Word> words{};
-  friend bool operator==(const MFunctions&, const MFunctions&) = default;
 };
 
 /// `STOP` with optional M functions.
 struct Stop {
   Slice<Word> words{};
-  friend bool operator==(const Stop&, const Stop&) = default;
 };
 
 // --- cycles
@@ -141,12 +128,6 @@ struct CycleParameter {
   Expr value{};
   Text comment{};         ///< the dialog text, as written
   Slice<char> written{};  ///< its place in the source, without the comment
-
-  /// The place does not count.
-  friend bool operator==(const CycleParameter& a, const CycleParameter& b) {
-    return a.parameter == b.parameter && a.kind == b.kind && a.value == b.value &&
-           a.comment == b.comment;
-  }
 };
 
 /// A cycle in Q-form, one block: `CYCL DEF 200 DRILLING ~ Q200=...`, `TCH PROBE 421 ...`; or
@@ -156,7 +137,6 @@ struct Cycle {
   std::uint16_t number = 0;
   Text dialog{};  ///< the free text after the number
   Slice<CycleParameter> parameters{};
-  friend bool operator==(const Cycle&, const Cycle&) = default;
 };
 
 /// A sub-line of a dotted cycle: `CYCL DEF 7.1 X+60`, `TCH PROBE 0.1 X+5 Y+0 Z-5`. Sub-line 0 opens
@@ -168,7 +148,6 @@ struct CyclePart {
   Text text{};  ///< all after the number as written: the title of part 0, dialog text and words
   /// The parsed part of the text; of a part 0 that is empty but for TCH PROBE 0.0.
   Slice<Word> words{};
-  friend bool operator==(const CyclePart&, const CyclePart&) = default;
 };
 
 enum class CycleCallKind : std::uint8_t { Here, Pattern, Position };
@@ -177,7 +156,6 @@ enum class CycleCallKind : std::uint8_t { Here, Pattern, Position };
 struct CycleCall {
   CycleCallKind kind = CycleCallKind::Here;
   Slice<Word> words{};
-  friend bool operator==(const CycleCall&, const CycleCall&) = default;
 };
 
 enum class PatternElement : std::uint8_t { Pos, Row, Pat, Frame, Circ, PitchCirc };
@@ -186,7 +164,6 @@ enum class PatternElement : std::uint8_t { Pos, Row, Pat, Frame, Circ, PitchCirc
 /// element an Element and its number, then its own.
 struct PatternDefinition {
   Slice<Word> words{};
-  friend bool operator==(const PatternDefinition&, const PatternDefinition&) = default;
 };
 
 // --- labels, programs, jumps
@@ -198,44 +175,36 @@ using Label = std::variant<std::uint32_t, Text, QRef>;
 /// `LBL n`; a Text or a number, never a parameter. Number 0 ends a subprogram.
 struct LabelDefinition {
   Label label{};
-  friend bool operator==(const LabelDefinition&, const LabelDefinition&) = default;
 };
 
 /// `CALL LBL n [REP r]`.
 struct LabelCall {
   Label label{};
   Expr repeat{};  ///< Absent: a subprogram call
-  friend bool operator==(const LabelCall&, const LabelCall&) = default;
 };
 
 /// FN 9 to 12: `IF a EQU b GOTO LBL x`, `IF Q1 IS UNDEFINED GOTO LBL x`.
 struct ConditionalJump {
   Expr condition{};  ///< always a Node: Equal, NotEqual, Greater, Less, IsDefined or IsUndefined
   Label target{};
-  friend bool operator==(const ConditionalJump&, const ConditionalJump&) = default;
 };
 
 /// In the next three, a path is a Text, a QS parameter or a Concat of both (`TNC:\:'QS1'.H`).
 struct CallProgram {
   Expr path{};
-  friend bool operator==(const CallProgram&, const CallProgram&) = default;
 };
 
 /// `SEL PGM path`.
 struct SelectProgram {
   Expr path{};
-  friend bool operator==(const SelectProgram&, const SelectProgram&) = default;
 };
 
 /// `CALL SELECTED PGM`.
-struct CallSelectedProgram {
-  friend bool operator==(const CallSelectedProgram&, const CallSelectedProgram&) = default;
-};
+struct CallSelectedProgram {};
 
 /// `SEL TABLE path`: the datum table.
 struct SelectTable {
   Expr path{};
-  friend bool operator==(const SelectTable&, const SelectTable&) = default;
 };
 
 // --- parameters and functions
@@ -250,13 +219,11 @@ struct Assignment {
   AssignmentForm form = AssignmentForm::Formula;
   std::uint8_t fn = 0;  ///< of form Fn
   Expr value{};
-  friend bool operator==(const Assignment&, const Assignment&) = default;
 };
 
 /// `FN 0: Q5 SET UNDEFINED`.
 struct SetUndefined {
   QRef target{};
-  friend bool operator==(const SetUndefined&, const SetUndefined&) = default;
 };
 
 /// FN 23 (3 points) and FN 24 (4 points): `Q20 = CDATA Q30`.
@@ -264,33 +231,28 @@ struct CircleData {
   QRef target{};
   QRef first_point{};
   std::uint8_t points = 3;
-  friend bool operator==(const CircleData&, const CircleData&) = default;
 };
 
 /// FN 14.
 struct ErrorStop {
   Expr number{};
-  friend bool operator==(const ErrorStop&, const ErrorStop&) = default;
 };
 
 /// FN 15: `PRINT Q1/Q2/"text"`.
 struct Print {
   Slice<Expr> items{};
-  friend bool operator==(const Print&, const Print&) = default;
 };
 
 /// FN 16: `F-PRINT mask / target`; paths as of CallProgram, or a device such as `SCREEN:`, `SCLR:`.
 struct FormattedPrint {
   Expr mask{};
   Expr target{};
-  friend bool operator==(const FormattedPrint&, const FormattedPrint&) = default;
 };
 
 /// FN 17: `SYSWRITE ID50 NR4 IDXQ2 = Q1604`.
 struct SystemWrite {
   Expr address{};  ///< a Node SystemAddress
   Expr value{};
-  friend bool operator==(const SystemWrite&, const SystemWrite&) = default;
 };
 
 /// FN 19, 29 (PLC), 37 (EXPORT), 38 (SEND: format, then values): without effect on a simulator but
@@ -298,33 +260,28 @@ struct SystemWrite {
 struct ExternalFunction {
   std::uint8_t fn = 0;
   Slice<Expr> operands{};
-  friend bool operator==(const ExternalFunction&, const ExternalFunction&) = default;
 };
 
 /// FN 20: `WAIT FOR SYNC`, or for a condition of the PLC, stored as written.
 struct WaitFor {
   Text condition{};
-  friend bool operator==(const WaitFor&, const WaitFor&) = default;
 };
 
 /// FN 26: path as of CallProgram.
 struct TableOpen {
   Expr path{};
-  friend bool operator==(const TableOpen&, const TableOpen&) = default;
 };
 
 /// FN 27: `TABWRITE row/"A,B" = Q5`, Q6, ...
 struct TableWrite {
   QRef first{};
   Expr cell{};  ///< a Node TableCell
-  friend bool operator==(const TableWrite&, const TableWrite&) = default;
 };
 
 /// FN 28: `TABREAD Q10 = row/"A,B"` into Q10, Q11, ...
 struct TableRead {
   QRef first{};
   Expr cell{};  ///< a Node TableCell
-  friend bool operator==(const TableRead&, const TableRead&) = default;
 };
 
 // --- coordinate systems and modes
@@ -337,7 +294,6 @@ struct Trans {
   bool reset = false;
   Slice<Word> words{};  ///< axes; Row; Rot; Scl
   Expr table{};         ///< path of TRANS DATUM TABLE when given
-  friend bool operator==(const Trans&, const Trans&) = default;
 };
 
 enum class PlaneKind : std::uint8_t {
@@ -357,7 +313,6 @@ struct Plane {
   PlaneKind kind = PlaneKind::Spatial;
   PlanePositioning positioning = PlanePositioning::Unspecified;
   Slice<Word> words{};
-  friend bool operator==(const Plane&, const Plane&) = default;
 };
 
 enum class OperatingMode : std::uint8_t { Mill, Turn, Grind };
@@ -366,21 +321,18 @@ enum class OperatingMode : std::uint8_t { Mill, Turn, Grind };
 struct FunctionMode {
   OperatingMode mode = OperatingMode::Mill;
   Text kinematics{};
-  friend bool operator==(const FunctionMode&, const FunctionMode&) = default;
 };
 
 /// `FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS` and `FUNCTION RESET TCPM`.
 struct FunctionTcpm {
   bool active = true;
   Text options{};  ///< after TCPM, one blank between words
-  friend bool operator==(const FunctionTcpm&, const FunctionTcpm&) = default;
 };
 
 /// `FUNCTION DWELL TIME2`, `FUNCTION DWELL REV5`: seconds, or turns of the spindle.
 struct Dwell {
   bool revolutions = false;
   Expr value{};
-  friend bool operator==(const Dwell&, const Dwell&) = default;
 };
 
 using Statement =

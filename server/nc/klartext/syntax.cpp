@@ -28,11 +28,6 @@ std::size_t ProgramParts::memory_bytes() const {
              (bytes_of(cycle_parameters) + bytes_of(nodes) + bytes_of(operands) + texts.size());
 }
 
-bool Block::operator==(const Block& other) const {
-  return comment == other.comment && number == other.number && has_number == other.has_number &&
-         skip == other.skip && comment_mark == other.comment_mark && statement == other.statement;
-}
-
 Program Program::translated(std::string&& source,
                             const std::function<Slice<char>(Slice<char>)>& place) && {
   for (Block& block : parts_.blocks) block.written = place(block.written);
@@ -63,14 +58,6 @@ Unit Program::unit() const {
 std::string_view Program::name() const {
   const BeginProgram* begin = begin_of(parts_.blocks);
   return begin != nullptr ? text(begin->name) : std::string_view();
-}
-
-bool operator==(const Program& a, const Program& b) {
-  // The pools are filled in the order of the source: equal programs have equal pools.
-  const ProgramParts& x = a.parts_;
-  const ProgramParts& y = b.parts_;
-  return x.blocks == y.blocks && x.words == y.words && x.cycle_parameters == y.cycle_parameters &&
-         x.nodes == y.nodes && x.operands == y.operands && x.texts == y.texts;
 }
 
 }  // namespace fitgauge::klartext

@@ -18,9 +18,6 @@ struct Block {
   std::uint32_t number = 0;
   Slice<char> written{};  ///< its place in the source, with all physical lines
   Text comment{};         ///< after `;` as written; of a cycle, of its first line
-
-  /// The place does not count.
-  bool operator==(const Block& other) const;
 };
 
 static_assert(std::is_trivially_copyable_v<Block> && sizeof(Block) == 56,
@@ -52,7 +49,7 @@ class Program {
 
   std::string_view file_name() const { return parts_.file_name; }
   std::string_view source() const { return parts_.source; }
-  std::size_t memory_bytes() const { return parts_.memory_bytes(); }
+  const ProgramParts& parts() const { return parts_; }
 
   /// Moves the program to the text that its source was made of; `place` maps places here to places
   /// there, while this source exists.
@@ -85,9 +82,6 @@ class Program {
   SourceRange range(Slice<char> place) const;
   /// A physical line (from 1) without its line end.
   std::string_view line(std::uint32_t number) const;
-
-  /// Structural: places, source and file name do not count.
-  friend bool operator==(const Program& a, const Program& b);
 
  private:
   template <class T>

@@ -26,8 +26,6 @@ struct Word {
   Letter letter = Letter::X;
   bool incremental = false;  ///< `IX`, `IPA`, `IROT`
   bool argument = false;     ///< belongs to the M function before it: `M140 MB50`, `M128 F1000`
-
-  friend bool operator==(const Word&, const Word&) = default;
 };
 
 static_assert(sizeof(Word) == 16, "a long program has three words a block");

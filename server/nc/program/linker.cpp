@@ -40,7 +40,7 @@ class Linker {
   /// Links the blocks; a program that is too large gives only the finding.
   LinkedParts link() {
     const auto blocks = program_.blocks();
-    const std::size_t parsed = program_.memory_bytes();
+    const std::size_t parsed = program_.parts().memory_bytes();
     for (std::uint32_t i = 0; i < blocks.size(); ++i) {
       if (parsed + writer_.memory_bytes() > klartext::kMostMemory) {
         report(Severity::Error, DiagnosticCode::ProgramTooLarge, blocks[i],
@@ -364,7 +364,7 @@ LinkedFile link(klartext::ParsedProgram parsed, const ControlPath& path) {
   check_contradictions(parsed.program, file.diagnostics);
   std::stable_sort(file.diagnostics.begin(), file.diagnostics.end(),
                    [](const auto& a, const auto& b) { return a.range.begin < b.range.begin; });
-  file.memory_bytes = parsed.program.memory_bytes() + memory_of(parts);
+  file.memory_bytes = parsed.program.parts().memory_bytes() + memory_of(parts);
   const auto has_error = [&](bool tolerant) {
     return std::any_of(
         file.diagnostics.begin(), file.diagnostics.end(), [tolerant](const auto& diagnostic) {

@@ -9,6 +9,7 @@
 #include "nc/klartext/parser.hpp"
 #include "nc/klartext/printer.hpp"
 #include "program_generator.hpp"
+#include "support/same_program.hpp"
 
 namespace fitgauge::klartext {
 namespace {

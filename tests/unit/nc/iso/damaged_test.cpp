@@ -6,6 +6,7 @@
 
 #include "nc/iso/parser.hpp"
 #include "nc/klartext/printer.hpp"
+#include "support/same_program.hpp"
 
 namespace fitgauge::iso {
 namespace {

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "parse_support.hpp"
+#include "support/same_program.hpp"
 
 namespace fitgauge::klartext {
 namespace {

@@ -2,6 +2,7 @@
 
 #include "nc/klartext/source_text.hpp"
 #include "parse_support.hpp"
+#include "support/same_program.hpp"
 
 namespace fitgauge::klartext {
 namespace {
