@@ -6,17 +6,6 @@
 namespace fitgauge::klartext {
 namespace {
 
-constexpr LetterSet kM(Letter::M);
-constexpr LetterSet kEveryMotion = kAxes | kFeeds | kM;
-constexpr LetterSet kPolar(Letter::Pr, Letter::Pa);
-
-/// The words of each path, in the order of Path.
-constexpr LetterSet kWordsOf[] = {
-#define FITGAUGE_PATH(path, spelling, words) words,
-#include "nc/klartext/paths.inc"
-#undef FITGAUGE_PATH
-};
-
 struct CompensationName {
   char second;
   RadiusCompensation compensation;
@@ -171,9 +160,21 @@ Statement parse_tool_definition(BlockReader& in) {
 
 }  // namespace
 
+LetterSet words_of(Path path) {
+  constexpr LetterSet kM(Letter::M);
+  constexpr LetterSet kEveryMotion = kAxes | kFeeds | kM;
+  constexpr LetterSet kPolar(Letter::Pr, Letter::Pa);
+  constexpr LetterSet kWords[] = {
+#define FITGAUGE_PATH(path, spelling, words) words,
+#include "nc/klartext/paths.inc"
+#undef FITGAUGE_PATH
+  };
+  return kWords[static_cast<std::size_t>(path)];
+}
+
 Statement parse_motion(BlockReader& in, Path path) {
   Motion motion{.path = path};
-  const LetterSet allowed = kWordsOf[static_cast<std::size_t>(path)];
+  const LetterSet allowed = words_of(path);
   WordReader words(in, allowed);
   if (path == Path::Chf && !in.at_end()) {
     in.add_word({.value = parse_number(in), .letter = Letter::Chamfer});
@@ -200,7 +201,7 @@ Statement parse_departure(BlockReader& in) { return parse_second_word(in, "DEP")
 
 Statement parse_m_functions(BlockReader& in) {
   in.move_to(in.at() - 1);  // the M that was read as the first word
-  return MFunctions{parse_words(in, kM)};
+  return MFunctions{parse_words(in, LetterSet(Letter::M))};
 }
 
 Statement parse_pattern(BlockReader& in) {

@@ -13,6 +13,9 @@ inline constexpr LetterSet kFeeds(Letter::F, Letter::FMax, Letter::FAuto, Letter
 /// Words that may count from the end of the last block: `IX+5`.
 inline constexpr LetterSet kIncremental = kAxes | LetterSet(Letter::Pr, Letter::Pa, Letter::Rot);
 
+/// The words of a positioning block.
+LetterSet words_of(Path path);
+
 /// Reads words of one block into the Program's pool, one at a time.
 class WordReader {
  public:

@@ -20,13 +20,7 @@ Element along(const Curve& curve, const Element& before, const machine::Feed& fe
 }
 
 /// The end of a block's linear axes.
-Vec3 end_of(const Element& element) {
-  Vec3 end = element.from;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (const auto& value = element.target.values[axis]) end[axis] = *value;
-  }
-  return end;
-}
+Vec3 end_of(const Element& element) { return moved({element.from, {}}, element.target).linear; }
 
 /// A line seen in the plane of the arc it meets in a corner.
 void turn_into_plane(Element& line, const WorkingPlane& plane) {
@@ -70,12 +64,7 @@ machine::Position Contour::position(const machine::Machine& machine) const {
     position = beside_->programmed;
   }
   const Element* last = approach_ ? &approach_->to_start : kept_ ? &*kept_ : nullptr;
-  if (last != nullptr) {
-    for (const machine::Axis axis : machine::kAllAxes) {
-      if (const auto& value = last->target[axis]) position[axis] = *value;
-    }
-  }
-  return position;
+  return last != nullptr ? moved(position, last->target) : position;
 }
 
 NcResult<void> Contour::move(machine::Machine& machine, const Element& element) {
@@ -90,10 +79,7 @@ NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
   const bool is_beside = element.side != 0 || cutter_.side() != 0;
   if (!is_beside && (is_shifted_ || element.shift != Vec3{})) return move_shifted(machine, element);
   if (!is_beside) return move(machine, element);
-  machine::Position programmed = position(machine);
-  for (const machine::Axis axis : machine::kAllAxes) {
-    if (const auto& value = element.target[axis]) programmed[axis] = *value;
-  }
+  machine::Position programmed = moved(position(machine), element.target);
   programmed.linear = element.plane.with(programmed.linear, element.curve.end);
   TRY(cutter_.add(machine, element));
   has_entered_part = has_entered_part || machine.has_entered_part();
@@ -103,10 +89,7 @@ NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
 
 /// LN with DR: the tool is offset from the programmed path until a block without a normal.
 NcResult<void> Contour::move_shifted(machine::Machine& machine, Element element) {
-  machine::Position programmed = position(machine);
-  for (const machine::Axis axis : machine::kAllAxes) {
-    if (const auto& value = element.target[axis]) programmed[axis] = *value;
-  }
+  const machine::Position programmed = moved(position(machine), element.target);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     element.target.values[axis] = programmed.linear[axis] + element.shift[axis];
   }

@@ -36,6 +36,14 @@ inline double radius_in_plane(const machine::MachineState& state, double radius)
 NcResult<void> check_scaling(const machine::MachineState& state, const WorkingPlane& plane,
                              std::string_view what);
 
+/// The position with the axes that words name.
+inline machine::Position moved(machine::Position position, const machine::AxisWords& words) {
+  for (const machine::Axis axis : machine::kAllAxes) {
+    if (const auto& value = words[axis]) position[axis] = *value;
+  }
+  return position;
+}
+
 inline void set_plane_target(Element& element, Vec2 point) {
   element.target.values[element.plane.first] = point.x;
   element.target.values[element.plane.second] = point.y;

@@ -1,14 +1,11 @@
 #include "nc/program/cycles.hpp"
 #include "nc/program/linked_program.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/channel_cycle_host.hpp"
-#include "nc/run/dotted_arguments.hpp"
-#include "nc/run/m_functions.hpp"
+#include "nc/run/frame_commands.hpp"
+#include "nc/run/kinematics_records.hpp"
 #include "nc/run/machining.hpp"
 #include "nc/run/machining_arguments.hpp"
-#include "nc/run/motion_words.hpp"
 #include "nc/run/statements.hpp"
-#include "nc/run/transformation_cycles.hpp"
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
@@ -27,6 +24,104 @@ class MovedByCycle {
 
  private:
   RunObserver& observer_;
+};
+
+/// The interface of touch-probe cycles to the program. Results go to Q parameters in the unit of
+/// the current program. Failures that a cycle's result cannot report (an exceeded budget) are
+/// stored for `failure`.
+class ChannelCycleHost final : public probing::CycleHost {
+ public:
+  explicit ChannelCycleHost(Channel& channel) : channel_(channel) {}
+
+  void set_q(std::uint16_t number, double value, probing::Unit unit) override {
+    const double scaled = value / scale_of(unit, channel_.linked().is_inch());
+    keep(channel_.parameters.set({klartext::QSpace::Q, number}, scaled));
+  }
+
+  probing::CycleMemory& memory() override { return channel_.cycle_memory; }
+  bool is_inch() const override { return channel_.calls.main_program().is_inch(); }
+  std::string_view program_path() const override { return channel_.linked().path().text(); }
+  Timestamp now() const override { return channel_.now(); }
+
+  probing::CycleResult<void> append_log(std::string_view name, std::string_view text) override {
+    const auto path = channel_.resolve_printed(name);
+    if (!path) return reported(path.error());
+    return reported(channel_.files.append(*path, text));
+  }
+
+  probing::CycleResult<void> write_log(std::string_view name, std::string_view text) override {
+    const auto path = channel_.resolve_printed(name);
+    if (!path) return reported(path.error());
+    return reported(channel_.files.write(*path, std::string(text)));
+  }
+
+  void stop(std::string_view reason) override {
+    channel_.machine().stop(reason);
+    if (channel_.options.on_stop == OnStop::End) {
+      channel_.stop_after_block = true;
+    } else {
+      keep(channel_.log.report(MessageKind::Stop, 0, std::string(reason), channel_.place()));
+    }
+  }
+
+  probing::CycleResult<bool> confirm(std::string_view reason) override {
+    stop(reason);
+    return channel_.options.on_stop != OnStop::End;
+  }
+
+  probing::CycleResult<void> note(std::string_view text) override {
+    return reported(channel_.note(std::string(text)));
+  }
+
+  void show_and_stop(std::string_view text) override {
+    while (!text.empty()) {
+      const std::size_t end = text.find('\n');
+      keep(channel_.log.print(std::string(text.substr(0, end))));
+      if (end == std::string_view::npos) break;
+      text.remove_prefix(end + 1);
+    }
+    stop("measuring log shown on the screen");
+  }
+
+  void record(const probing::MeasuringRecord& record) override {
+    keep(channel_.log.record(record, channel_.chain()));
+  }
+
+  void touched(const machine::ContactPoint& contact) override { channel_.last_touch = contact; }
+
+  probing::CycleResult<void> write_datum(int row, const machine::AxisWords& values) override {
+    return reported(channel_.tables.write_datum(row, values));
+  }
+
+  probing::CycleResult<probing::KinematicsRecords> kinematics_records() override {
+    auto records = read_kinematics_records(channel_.files, channel_.budget.allowance());
+    if (records) return *std::move(records);
+    return probing::CycleFault{probing::CycleFaultKind::Error, records.error().number,
+                               records.error().text};
+  }
+
+  probing::CycleResult<void> keep_kinematics(const probing::KinematicsRecords& records) override {
+    return reported(write_kinematics_records(channel_.files, records));
+  }
+
+  /// The first failure that the cycle did not report, or nothing.
+  const std::optional<NcError>& failure() const { return failure_; }
+
+ private:
+  /// A failure as a cycle returns it; its kind (a budget) is stored here.
+  probing::CycleResult<void> reported(const NcResult<void>& done) {
+    if (done) return {};
+    keep(done);
+    return probing::CycleFault{probing::CycleFaultKind::Error, done.error().number,
+                               done.error().text};
+  }
+
+  void keep(const NcResult<void>& done) {
+    if (!done && !failure_) failure_ = done.error();
+  }
+
+  Channel& channel_;
+  std::optional<NcError> failure_;
 };
 
 /// A travel that ends before the nominal contact finds only nearer material.
@@ -63,12 +158,6 @@ NcResult<probing::Arguments> arguments_of(Channel& channel, const klartext::Cycl
     arguments.set(bound.parameters[i]->id, std::move(value));
   }
   return arguments;
-}
-
-NcResult<void> run_probing(Channel& channel, const klartext::Cycle& cycle,
-                           const BoundCycle& bound) {
-  auto arguments = TRY(arguments_of(channel, cycle, bound));
-  return run_probing(channel, *bound.probing, std::move(arguments));
 }
 
 /// GLOBAL DEF: its values apply until the next one of its number, or the end of the run.
@@ -125,48 +214,39 @@ NcResult<void> set_parameters(Channel& channel, const klartext::Cycle& cycle) {
 }  // namespace
 
 NcResult<Next> execute(Channel& channel, const klartext::Cycle& cycle, const BoundCycle& bound) {
-  NcResult<void> done;
   if (bound.probing != nullptr) {
-    done = run_probing(channel, cycle, bound);
+    auto arguments = TRY(arguments_of(channel, cycle, bound));
+    TRY(run_probing(channel, *bound.probing, std::move(arguments)));
   } else if (bound.machining != nullptr) {
-    auto definition = machining_arguments(channel, cycle, bound);
-    done = definition ? define(channel, *std::move(definition)) : definition.error();
+    auto definition = TRY(machining_arguments(channel, cycle, bound));
+    TRY(define(channel, std::move(definition)));
   } else if (bound.global != nullptr) {
-    done = define_globally(channel, cycle, bound);
+    TRY(define_globally(channel, cycle, bound));
   } else {
     if (channel.options.builder.cycle(cycle.number) != nullptr) TRY(set_parameters(channel, cycle));
     return run_builders(channel, cycle.family, cycle.number);
   }
-  if (!done) return done.error();
   return Next{};
 }
 
 NcResult<Next> execute_parts(Channel& channel, std::uint32_t first, std::uint32_t last) {
-  const auto blocks = channel.program().blocks();
-  const auto& opening = std::get<klartext::CyclePart>(blocks[first].statement);
+  const auto& opening = std::get<klartext::CyclePart>(channel.program().blocks()[first].statement);
   if (!is_available(opening.family, opening.number, true)) {
     return run_builders(channel, opening.family, opening.number);
   }
-  NcResult<void> done;
   if (const auto* probing = probing_cycle(opening.family, opening.number)) {
-    auto arguments = dotted_arguments(channel, *probing, first, last);
-    done = arguments ? run_probing(channel, *probing, *std::move(arguments)) : arguments.error();
+    auto arguments = TRY(dotted_arguments(channel, *probing, first, last));
+    TRY(run_probing(channel, *probing, std::move(arguments)));
   } else if (opening.number == 14) {
     channel.active_cycle.contours = TRY(contour_labels(channel, first, last));
   } else if (const auto* machining = machining_cycle(opening.number)) {
-    auto definition = machining_arguments(channel, *machining, first, last);
-    done = definition ? define(channel, *std::move(definition)) : definition.error();
+    auto definition = TRY(machining_arguments(channel, *machining, first, last));
+    TRY(define(channel, std::move(definition)));
   } else {
     std::vector<klartext::Word> words;
-    for (std::uint32_t i = first; i <= last; ++i) {
-      const auto* part = std::get_if<klartext::CyclePart>(&blocks[i].statement);
-      if (part == nullptr) continue;
-      const auto view = channel.program().view(part->words);
-      words.insert(words.end(), view.begin(), view.end());
-    }
-    done = execute_transformation(channel, opening.number, words);
+    for (const auto& [part, word] : words_of_parts(channel, first, last)) words.push_back(word);
+    TRY(execute_transformation(channel, opening.number, words));
   }
-  if (!done) return done.error();
   return Next{};
 }
 
@@ -180,9 +260,7 @@ NcResult<Next> call_at_position(Channel& channel, const MotionWords& words) {
   machine::AxisWords target;
   for (const machine::Axis axis : machine::kAllAxes) {
     const auto& word = words.axes[machine::index(axis)];
-    if (!word) continue;
-    target[axis] =
-        word->incremental ? channel.machine().position()[axis] + word->value : word->value;
+    if (word) target[axis] = word->after(channel.machine().position()[axis]);
   }
   auto* machining = std::get_if<MachiningDefinition>(&channel.active_cycle.definition);
   const double surface = machining == nullptr ? 0 : machining->value(203);

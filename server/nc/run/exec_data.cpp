@@ -2,7 +2,6 @@
 #include "nc/probing/touch/fits.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
-#include "nc/run/system_data.hpp"
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {

@@ -3,7 +3,6 @@
 #include "nc/run/channel.hpp"
 #include "nc/run/frame_commands.hpp"
 #include "nc/run/statements.hpp"
-#include "nc/run/transformation_cycles.hpp"
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {

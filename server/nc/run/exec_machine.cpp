@@ -1,7 +1,4 @@
 #include "nc/run/channel.hpp"
-#include "nc/run/m_functions.hpp"
-#include "nc/run/motion_words.hpp"
-#include "nc/run/positioning.hpp"
 #include "nc/run/statements.hpp"
 #include "nc/run/tool_orientation.hpp"
 #include "nc/run/tool_values.hpp"
@@ -135,12 +132,12 @@ NcResult<Next> execute(Channel& channel, const Motion& motion) {
   auto words = TRY(read_words(channel, motion.words));
   channel.contour.compensate(motion.compensation);
   if (channel.contour.drawing() != nullptr) {
-    TRY(Positioning(channel, motion, words).run());
+    TRY(position(channel, motion, words));
     return Next{};
   }
   TRY(start_m_functions(channel, words.m));
   TRY(orient_tool(channel, motion, words));
-  TRY(Positioning(channel, motion, words).run());
+  TRY(position(channel, motion, words));
   TRY(note_entry(channel));
   return end_m_functions(channel, words);
 }
@@ -159,6 +156,17 @@ NcResult<Next> execute(Channel& channel, const klartext::Stop& stop) {
   if (!next || next->kind != Next::Kind::Block) return next;
   TRY(channel.programmed_stop("programmed stop"));
   return next;
+}
+
+NcResult<void> execute(Channel& channel, const klartext::Dwell& dwell) {
+  const auto value = TRY(number(channel, dwell.value));
+  double seconds = value;
+  if (dwell.revolutions) {
+    const double rpm = channel.machine().state().modes.spindle_rpm;
+    if (rpm <= 0) return nc_error(1020, "FUNCTION DWELL REV needs a speed of the spindle");
+    seconds = value * 60 / rpm;
+  }
+  return checked(channel.machine().dwell(seconds));
 }
 
 }  // namespace fitgauge::interpreter

@@ -3,7 +3,6 @@
 #include "nc/run/channel.hpp"
 #include "nc/run/formatted_printer.hpp"
 #include "nc/run/statements.hpp"
-#include "nc/run/string_functions.hpp"
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,16 +1,9 @@
-#include "nc/run/executor.hpp"
-
 #include "nc/program/arithmetic.hpp"
 #include "nc/run/executor_steps.hpp"
+#include "nc/run/statements.hpp"
 
 // Direct threading: each operation jumps to the next one's code, so that the processor predicts
-// every pair of operations apart. Labels as values are an extension of GCC and Clang; other
-// compilers get a switch in a loop.
-#if defined(__GNUC__) && !defined(FITGAUGE_SWITCH_DISPATCH)
-#define FITGAUGE_THREADED 1
-#else
-#define FITGAUGE_THREADED 0
-#endif
+// every pair of operations apart. Labels as values are an extension of GCC and Clang.
 
 namespace fitgauge::interpreter {
 namespace {
@@ -51,18 +44,12 @@ class Executor : ExecutorSteps {
 // Macros that are labels and statements confuse the formatter.
 // clang-format off
 
-#if FITGAUGE_THREADED
 #define FITGAUGE_OP(name) op_##name
 // NOLINTNEXTLINE(bugprone-macro-parentheses): a statement
 #define FITGAUGE_NEXT() goto* kHandlers[static_cast<std::size_t>(pc->op)]
 // Forgets the state of a variable. The rare way out reads everything again, so that the usual way
 // keeps none of it in a register.
 #define FITGAUGE_FORGET(variable) asm volatile("" : "+r"(variable) : : "memory")
-#else
-#define FITGAUGE_FORGET(variable) static_cast<void>(variable)
-#define FITGAUGE_OP(name) case Op::name
-#define FITGAUGE_NEXT() continue
-#endif
 
 // Accounts for the blocks that an instruction begins.
 #define FITGAUGE_BEGIN()                                            \
@@ -110,7 +97,6 @@ class Executor : ExecutorSteps {
 
 template <bool kFollowed>
 void Executor<kFollowed>::loop(const Instruction* first) {
-#if FITGAUGE_THREADED
   static const void* const kHandlers[] = {
       &&op_Add,         &&op_Subtract,      &&op_Multiply,    &&op_Divide,
       &&op_Copy,        &&op_Compute,       &&op_Evaluate,    &&op_JumpEqual,
@@ -119,20 +105,13 @@ void Executor<kFollowed>::loop(const Instruction* first) {
       &&op_AddTwiceThenJumpLess, &&op_Count,  &&op_SkipBlock,   &&op_CallLabel,
       &&op_LabelEnd,    &&op_Repeat,        &&op_Statement,   &&op_End};
   static_assert(std::size(kHandlers) == static_cast<std::size_t>(Op::End) + 1);
-#endif
   // The loop keeps its state in registers; the members are updated on the way out.
   const Instruction* code = code_;
   double* cells = cells_;
   std::int64_t fuel = fuel_;
   const Instruction* pc = first;
   const Instruction* next = nullptr;
-
-#if FITGAUGE_THREADED
   FITGAUGE_NEXT();
-#else
-  for (;;) {
-  switch (pc->op) {
-#endif
 
   FITGAUGE_OP(Add):
     FITGAUGE_BEGIN();
@@ -237,10 +216,6 @@ void Executor<kFollowed>::loop(const Instruction* first) {
     error_ = value_error(*pc);
     fuel_ = fuel;
     goto done;
-#if !FITGAUGE_THREADED
-  }
-  }
-#endif
 done:
   if (error_) enter(pc);
   if (failed_at_) channel_.block = *failed_at_;

@@ -1,7 +1,6 @@
 #include "nc/run/formatted_printer.hpp"
 
 #include "nc/run/channel.hpp"
-#include "nc/run/string_functions.hpp"
 #include "nc/run/values.hpp"
 #include "tables/tabfile/characters.hpp"
 

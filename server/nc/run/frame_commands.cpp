@@ -2,8 +2,8 @@
 
 #include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/m_functions.hpp"
 #include "nc/run/plane_geometry.hpp"
+#include "nc/run/statements.hpp"
 #include "nc/run/tool_orientation.hpp"
 #include "nc/run/tool_values.hpp"
 
@@ -143,7 +143,7 @@ NcResult<void> shift_datum(Channel& channel, const AxisCoordinates& axes) {
     machine::Position shift = frames.datum_shift();
     for (const Axis axis : machine::kAllAxes) {
       const auto& word = axes[machine::index(axis)];
-      if (word) shift[axis] = word->incremental ? shift[axis] + word->value : word->value;
+      if (word) shift[axis] = word->after(shift[axis]);
     }
     frames.set_datum_shift(shift);
   });

@@ -1,8 +1,8 @@
 #include "nc/run/interpreter.hpp"
 
 #include "nc/run/channel.hpp"
-#include "nc/run/executor.hpp"
 #include "nc/run/origins.hpp"
+#include "nc/run/statements.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

@@ -1,4 +1,4 @@
-#include "nc/run/m_functions.hpp"
+#include "nc/run/statements.hpp"
 
 #include "nc/machine/tolerance.hpp"
 #include "nc/probing/alignment/rotation.hpp"

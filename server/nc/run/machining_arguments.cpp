@@ -10,6 +10,7 @@ namespace {
 using klartext::CycleValue;
 using klartext::Letter;
 using klartext::Word;
+using probing::ParameterId;
 
 bool is_text(const klartext::Expr& expr) {
   const auto* parameter = std::get_if<klartext::QRef>(&expr);
@@ -84,29 +85,114 @@ double unit_of(const Channel& channel, int parameter) {
   return is_feed ? kMillimetresPerInch / 10 : kMillimetresPerInch;
 }
 
-/// Calls `read(sub-line, word)` for the words of the sub-lines of a cycle.
-template <class Read>
-NcResult<void> for_each_word(Channel& channel, std::uint32_t first, std::uint32_t last,
-                             const Read& read) {
+/// Reads one word of a sub-line after the other into the arguments of the cycle.
+class DottedReader {
+ public:
+  DottedReader(Channel& channel, const probing::CycleDescriptor& descriptor)
+      : channel_(channel), descriptor_(descriptor), arguments_(descriptor) {}
+
+  NcResult<void> read(const Word& word, int part) {
+    if (std::exchange(part_, part) != part) values_ = 0;
+    switch (word.letter) {
+      case Letter::Result: return read_result(word, part);
+      case Letter::F: return read_as(ParameterId::WordFeed, word, part);
+      case Letter::Mb: return read_as(ParameterId::WordRetract, word, part);
+      case Letter::Value: return read_value(word, part);
+      default: return is_axis(word.letter) ? read_axis(word, part) : NcResult<void>();
+    }
+  }
+
+  probing::Arguments take() { return std::move(arguments_); }
+
+ private:
+  const probing::CycleParameter* find(ParameterId id, int part) const {
+    const auto* parameter = descriptor_.find(id);
+    return parameter != nullptr && parameter->part == part ? parameter : nullptr;
+  }
+
+  NcResult<void> set(const probing::CycleParameter& parameter, const Word& word, double added = 0) {
+    const auto value = TRY(number(channel_, word.value));
+    const double scale = scale_of(parameter.unit, channel_.linked().is_inch());
+    arguments_.set(parameter.id, value * scale + added);
+    return {};
+  }
+
+  NcResult<void> read_as(ParameterId id, const Word& word, int part) {
+    const auto* parameter = find(id, part);
+    return parameter != nullptr ? set(*parameter, word) : NcResult<void>();
+  }
+
+  NcResult<void> read_result(const Word& word, int part) {
+    const auto* parameter = std::get_if<klartext::QRef>(&word.value);
+    if (parameter == nullptr || parameter->space != klartext::QSpace::Q) {
+      return nc_error("the result of a touch-probe cycle must be a Q parameter");
+    }
+    if (find(ParameterId::WordResult, part) != nullptr) {
+      arguments_.set(ParameterId::WordResult, static_cast<double>(parameter->number));
+    }
+    return {};
+  }
+
+  /// The name of the probing axis (`X-`, `X ANGLE`), or a coordinate.
+  NcResult<void> read_axis(const Word& word, int part) {
+    if (word.letter > Letter::Z) {
+      return nc_error("a touch-probe cycle accepts only the axes X, Y and Z");
+    }
+    const auto axis = static_cast<int>(word.letter);
+    if (find(ParameterId::WordAxis, part) != nullptr) {
+      arguments_.set(ParameterId::WordAxis, static_cast<double>(axis));
+      const auto* direction = find(ParameterId::WordDirection, part);
+      return direction != nullptr ? set(*direction, word) : NcResult<void>();
+    }
+    const auto id = static_cast<ParameterId>(static_cast<int>(ParameterId::WordX) + axis);
+    const auto* parameter = find(id, part);
+    if (parameter == nullptr) return {};
+    // IX of cycle 4 is a component of the probing direction, elsewhere a distance from here.
+    const bool is_direction = descriptor_.number == 4;
+    const double here = channel_.machine().position().linear[static_cast<std::size_t>(axis)];
+    return set(*parameter, word, word.incremental && !is_direction ? here : 0);
+  }
+
+  /// A number after dialog text: the values of a sub-line have this order.
+  NcResult<void> read_value(const Word& word, int part) {
+    constexpr std::array kOrder{
+        ParameterId::WordAngle,     ParameterId::WordDistance, ParameterId::WordReferenceSystem,
+        ParameterId::WordErrorMode, ParameterId::WordCheck,    ParameterId::WordHeight,
+        ParameterId::WordTeeth};
+    while (values_ < kOrder.size()) {
+      const auto* parameter = find(kOrder[values_++], part);
+      if (parameter != nullptr) return set(*parameter, word);
+    }
+    return nc_error(fmt::format("sub-line {} of the cycle has a number too many", part));
+  }
+
+  Channel& channel_;
+  const probing::CycleDescriptor& descriptor_;
+  probing::Arguments arguments_;
+  int part_ = -1;
+  std::size_t values_ = 0;  ///< of the sub-line
+};
+
+}  // namespace
+
+std::vector<PartWord> words_of_parts(const Channel& channel, std::uint32_t first,
+                                     std::uint32_t last) {
+  std::vector<PartWord> all;
   const auto blocks = channel.program().blocks();
   for (std::uint32_t i = first; i <= last; ++i) {
     const auto* part = std::get_if<klartext::CyclePart>(&blocks[i].statement);
     if (part == nullptr) continue;
-    for (const Word& word : channel.program().view(part->words)) {
-      if (NcResult<void> done = read(*part, word); !done) return done;
-    }
+    for (const Word& word : channel.program().view(part->words)) all.push_back({part->part, word});
   }
-  return {};
+  return all;
 }
-
-}  // namespace
 
 NcResult<probing::ArgumentValue> cycle_argument(Channel& channel,
                                                 const klartext::CycleParameter& written,
                                                 const probing::CycleParameter& parameter) {
   if (written.kind == CycleValue::Predef) {
-    const auto value = predefined_value(channel, written.parameter.number);
-    return value ? NcResult<probing::ArgumentValue>(*value) : value.error();
+    const auto value = TRY(predefined_value(channel, written.parameter.number));
+    return probing::ArgumentValue(value);
   }
   if (auto value = literal(channel.program(), written, parameter)) return *std::move(value);
   if (written.kind == CycleValue::Expression && is_text(written.value)) {
@@ -146,42 +232,41 @@ NcResult<MachiningDefinition> machining_arguments(Channel& channel, const klarte
 NcResult<MachiningDefinition> machining_arguments(Channel& channel, const MachiningCycle& cycle,
                                                   std::uint32_t first, std::uint32_t last) {
   MachiningDefinition definition{.cycle = &cycle};
-  const int number_of_cycle = cycle.descriptor.number;
-  auto read = for_each_word(
-      channel, first, last,
-      [&](const klartext::CyclePart& part, const Word& word) -> NcResult<void> {
-        if (part.part == 0) return {};
-        const OldWord* row = find_old(number_of_cycle, part.part, word.letter);
-        if (row == nullptr || is_absent(word.value)) return {};
-        const auto value = TRY(number(channel, word.value));
-        double result = value * row->scale * unit_of(channel, row->parameter);
-        // Depth, pitch and rotation have a direction, the others are sizes.
-        const bool has_direction =
-            row->parameter == 201 || row->parameter == 239 || row->parameter == 351;
-        if (row->parameter == 218) {  // the slot runs along that axis, in that direction
-          definition.values[374] = (word.letter == Letter::Y ? 90 : 0) + (result < 0 ? 180 : 0);
-        }
-        if (!has_direction) result = std::abs(result);
-        definition.values[row->parameter] = result;
-        definition.given.insert(row->parameter);
-        return {};
-      });
-  if (!read) return read.error();
+  for (const auto& [part, word] : words_of_parts(channel, first, last)) {
+    const OldWord* row = find_old(cycle.descriptor.number, part, word.letter);
+    if (row == nullptr || is_absent(word.value)) continue;
+    const auto value = TRY(number(channel, word.value));
+    double result = value * row->scale * unit_of(channel, row->parameter);
+    // Depth, pitch and rotation have a direction, the others are sizes.
+    const bool has_direction =
+        row->parameter == 201 || row->parameter == 239 || row->parameter == 351;
+    if (row->parameter == 218) {  // the slot runs along that axis, in that direction
+      definition.values[374] = (word.letter == Letter::Y ? 90 : 0) + (result < 0 ? 180 : 0);
+    }
+    if (!has_direction) result = std::abs(result);
+    definition.values[row->parameter] = result;
+    definition.given.insert(row->parameter);
+  }
   return definition;
+}
+
+NcResult<probing::Arguments> dotted_arguments(Channel& channel,
+                                              const probing::TouchProbeCycle& cycle,
+                                              std::uint32_t first, std::uint32_t last) {
+  DottedReader reader(channel, cycle.descriptor);
+  for (const auto& [part, word] : words_of_parts(channel, first, last))
+    TRY(reader.read(word, part));
+  return reader.take();
 }
 
 NcResult<std::vector<klartext::Label>> contour_labels(Channel& channel, std::uint32_t first,
                                                       std::uint32_t last) {
   std::vector<klartext::Label> labels;
-  auto read = for_each_word(
-      channel, first, last,
-      [&](const klartext::CyclePart& part, const Word& word) -> NcResult<void> {
-        if (part.part == 0 || word.letter != Letter::Value) return {};
-        const auto label = TRY(whole(channel, word.value));
-        labels.emplace_back(static_cast<std::uint32_t>(std::max<std::int64_t>(0, label)));
-        return {};
-      });
-  if (!read) return read.error();
+  for (const auto& [part, word] : words_of_parts(channel, first, last)) {
+    if (part == 0 || word.letter != Letter::Value) continue;
+    const auto label = TRY(whole(channel, word.value));
+    labels.emplace_back(static_cast<std::uint32_t>(std::max(0, label)));
+  }
   if (labels.empty()) return nc_error(1017, "CYCL DEF 14 names no label");
   return labels;
 }

@@ -3,7 +3,7 @@
 #include "nc/program/diagnose.hpp"
 #include "nc/program/linked_program.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/m_functions.hpp"
+#include "nc/run/statements.hpp"
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {

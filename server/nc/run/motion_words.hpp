@@ -13,6 +13,8 @@ class Channel;
 struct Coordinate {
   double value = 0;
   bool incremental = false;
+
+  double after(double last) const { return incremental ? last + value : value; }
 };
 
 /// An M function with its words: `M140 MB50 F750`, `M128 F1000`.
@@ -49,6 +51,9 @@ NcResult<machine::Feed> read_feed(Channel& channel, const klartext::Word& word);
 
 /// The feed of a block: its word, which becomes modal unless it is FMAX, or the modal feed.
 NcResult<machine::Feed> use_feed(Channel& channel, const std::optional<machine::Feed>& written);
+
+/// Moves along one positioning block, or keeps what its next blocks decide.
+NcResult<void> position(Channel& channel, const klartext::Motion& motion, const MotionWords& words);
 
 /// @errors AxisMissing for U, V, W, which the simulated machine does not have.
 NcResult<machine::Axis> machine_axis(klartext::Letter letter);

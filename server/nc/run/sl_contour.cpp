@@ -2,7 +2,7 @@
 
 #include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/executor.hpp"
+#include "nc/run/statements.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

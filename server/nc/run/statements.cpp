@@ -5,47 +5,34 @@
 namespace fitgauge::interpreter {
 namespace {
 
-/// Calls the function for a block's kind, and converts its outcome to one form.
-class Dispatcher {
- public:
-  Dispatcher(Channel& channel, const Instruction& instruction)
-      : channel_(channel), instruction_(instruction) {}
+NcResult<Next> wrap(NcResult<Next> next) { return next; }
+NcResult<Next> wrap(const NcResult<void>& done) {
+  if (!done) return done.error();
+  return Next{};
+}
 
-  NcResult<Next> operator()(const klartext::LabelCall& call) const {
-    return execute(channel_, call, instruction_.b);
+/// Calls the function for a block's kind.
+template <class Statement>
+NcResult<Next> dispatch(Channel& channel, const Instruction& instruction,
+                        const Statement& statement) {
+  const auto text = [&](klartext::Text written) { return channel.program().text(written); };
+  if constexpr (std::is_same_v<Statement, klartext::LabelCall>) {
+    return execute(channel, statement, instruction.b);
+  } else if constexpr (std::is_same_v<Statement, klartext::Cycle>) {
+    return execute(channel, statement, channel.linked().cycle(instruction.b));
+  } else if constexpr (std::is_same_v<Statement, klartext::CyclePart>) {
+    return execute_parts(channel, instruction.b, instruction.a);
+  } else if constexpr (std::is_same_v<Statement, klartext::ErrorBlock>) {
+    return nc_error(fmt::format("block is faulty: {}", text(statement.text)));
+  } else if constexpr (std::is_same_v<Statement, klartext::Unsupported>) {
+    return nc_error(
+        fmt::format("{} is not available: {}", text(statement.feature), text(statement.text)));
+  } else if constexpr (requires { execute(channel, statement); }) {
+    return wrap(execute(channel, statement));
+  } else {
+    return Next{};  // comments, labels: the linker makes no code of them
   }
-  NcResult<Next> operator()(const klartext::Cycle& cycle) const {
-    return execute(channel_, cycle, channel_.linked().cycle(instruction_.b));
-  }
-  NcResult<Next> operator()(const klartext::CyclePart&) const {
-    return wrap(execute_parts(channel_, instruction_.b, instruction_.a));
-  }
-  NcResult<Next> operator()(const klartext::ErrorBlock& block) const {
-    return nc_error(fmt::format("block is faulty: {}", channel_.program().text(block.text)));
-  }
-  NcResult<Next> operator()(const klartext::Unsupported& block) const {
-    return nc_error(fmt::format("{} is not available: {}", channel_.program().text(block.feature),
-                                channel_.program().text(block.text)));
-  }
-  template <class Statement>
-  NcResult<Next> operator()(const Statement& statement) const {
-    if constexpr (requires { execute(channel_, statement); }) {
-      return wrap(execute(channel_, statement));
-    } else {
-      return Next{};  // comments, labels: the linker makes no code of them
-    }
-  }
-
- private:
-  static NcResult<Next> wrap(NcResult<Next> next) { return next; }
-  static NcResult<Next> wrap(const NcResult<void>& done) {
-    if (!done) return done.error();
-    return Next{};
-  }
-
-  Channel& channel_;
-  const Instruction& instruction_;
-};
+}
 
 template <class... Kinds>
 bool is_one_of(const klartext::Statement& statement) {
@@ -75,7 +62,8 @@ NcResult<Next> execute_statement(Channel& channel, const Instruction& instructio
       return nc_error("this block is not allowed in the contour of an SL cycle");
     }
   }
-  auto next = std::visit(Dispatcher(channel, instruction), statement);
+  auto next =
+      std::visit([&](const auto& kind) { return dispatch(channel, instruction, kind); }, statement);
   if (next && channel.stop_after_block) {
     return NcError{NcErrorKind::Stop, 0, "measuring log shown on the screen"};
   }

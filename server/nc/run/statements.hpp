@@ -3,7 +3,7 @@
 #include "nc/klartext/statement.hpp"
 #include "nc/program/code.hpp"
 #include "nc/program/linked_program.hpp"
-#include "nc/run/nc_error.hpp"
+#include "nc/run/motion_words.hpp"
 
 /// One function for each kind of block; a family is in one exec_* file.
 namespace fitgauge::interpreter {
@@ -20,6 +20,20 @@ struct Next {
 
 /// Runs the block of an Op::Statement.
 NcResult<Next> execute_statement(Channel& channel, const Instruction& instruction);
+
+// executor.cpp
+/// End of a run's code.
+struct Ending {
+  std::uint64_t blocks_executed = 0;
+  std::optional<NcError> error;  ///< nothing when the program ended
+};
+
+/// Runs the main program of a channel to its end. If it fails, `channel.place()` is the block.
+Ending execute_program(Channel& channel);
+
+/// Runs the blocks from the instruction of a label to its LBL 0, for a cycle that needs a
+/// subprogram. @errors those of the blocks; LBL 0 is missing.
+NcResult<void> execute_label(Channel& channel, std::uint32_t label);
 
 // exec_flow.cpp
 NcResult<Next> execute(Channel& channel, const klartext::ConditionalJump& jump);
@@ -54,6 +68,7 @@ NcResult<void> execute(Channel& channel, const klartext::ToolDefinition& definit
 NcResult<Next> execute(Channel& channel, const klartext::Motion& motion);
 NcResult<Next> execute(Channel& channel, const klartext::MFunctions& functions);
 NcResult<Next> execute(Channel& channel, const klartext::Stop& stop);
+NcResult<void> execute(Channel& channel, const klartext::Dwell& dwell);
 
 // exec_cycles.cpp
 NcResult<Next> execute(Channel& channel, const klartext::Cycle& cycle, const BoundCycle& bound);
@@ -62,9 +77,20 @@ NcResult<Next> execute(Channel& channel, const klartext::CycleCall& call);
 /// The cycle that M99, M89 and CYCL CALL run at the current position.
 NcResult<Next> call_active_cycle(Channel& channel);
 
-// exec_pattern.cpp
+// patterns.cpp
 NcResult<void> execute(Channel& channel, const klartext::PatternDefinition& pattern);
-NcResult<void> execute(Channel& channel, const klartext::Dwell& dwell);
+
+// m_functions.cpp
+/// M functions with effect at the start of the block: spindle and coolant on, TCPM.
+NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& calls);
+
+/// M functions with effect at its end: spindle and coolant off, M140, stops, cycle call, end of the
+/// program.
+NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words);
+
+/// M140 MB, and MB of PLANE: away from the workpiece along the tool axis, in rapid traverse without
+/// a feed.
+NcResult<void> retract(Channel& channel, const MCall& call);
 
 // exec_frames.cpp
 NcResult<void> execute(Channel& channel, const klartext::Trans& trans);

@@ -1,5 +1,3 @@
-#include "nc/run/string_functions.hpp"
-
 #include "base/text.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/values.hpp"

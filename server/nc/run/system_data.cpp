@@ -1,5 +1,3 @@
-#include "nc/run/system_data.hpp"
-
 #include "nc/program/system_addresses.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/tool_values.hpp"

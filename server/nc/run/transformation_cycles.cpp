@@ -1,5 +1,3 @@
-#include "nc/run/transformation_cycles.hpp"
-
 #include "nc/klartext/word_names.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/frame_commands.hpp"

@@ -2,8 +2,6 @@
 
 #include "nc/program/arithmetic.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/string_functions.hpp"
-#include "nc/run/system_data.hpp"
 #include "nc/run/tool_values.hpp"
 
 namespace fitgauge::interpreter {

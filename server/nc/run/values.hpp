@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/clock.hpp"
 #include "nc/klartext/expression.hpp"
 #include "nc/run/nc_error.hpp"
 
@@ -26,5 +27,29 @@ NcResult<bool> condition(Channel& channel, klartext::NodeIndex index);
 
 /// The numeric value of an inner node.
 NcResult<double> evaluate(Channel& channel, klartext::NodeIndex index);
+
+// string_functions.cpp
+/// Concat, ToChar, SubString, SystemString.
+NcResult<std::string> string_value(Channel& channel, klartext::NodeIndex index);
+/// ToNumber, InString, StringLength, StringCompare.
+NcResult<double> string_number(Channel& channel, klartext::NodeIndex index);
+
+/// A number as TOCHAR writes it: with that many decimals, or without a number of them (-1) up to 6
+/// without trailing zeros (decision 22).
+std::string to_char(double value, int decimals);
+
+/// SYSSTR( ID10321 NRn ): date and time in the formats 0 to 16 of the control, UTC.
+std::optional<std::string> format_system_time(Timestamp time, std::int64_t format);
+
+/// The three letters of a month (1 to 12) as STR_MONTH of FN 16 prints them.
+std::string_view month_name(int month);
+
+// system_data.cpp
+/// FN 18: SYSREAD. Always metric, in INCH programs too.
+/// @errors an ID or NR this control does not have (decision 3), no such tool, preset or axis.
+NcResult<double> read_system_data(Channel& channel, klartext::NodeIndex address);
+
+/// FN 17: SYSWRITE of ID50 (tool table), ID500 (datum table) and ID503 (preset table).
+NcResult<void> write_system_data(Channel& channel, klartext::NodeIndex address, double value);
 
 }  // namespace fitgauge::interpreter
