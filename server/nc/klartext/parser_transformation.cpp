@@ -8,20 +8,6 @@ namespace {
 constexpr LetterSet kEveryPlane =
     kFeeds | LetterSet(Letter::Mb, Letter::MbMax, Letter::Dist, Letter::Seq, Letter::Sym);
 
-/// The words that define each plane, in the order of PlaneKind.
-constexpr LetterSet kPlaneWords[] = {
-    LetterSet(Letter::Spa, Letter::Spb, Letter::Spc),
-    LetterSet(Letter::ProPr, Letter::ProMin, Letter::Rot),
-    LetterSet(Letter::EulPr, Letter::EulNu, Letter::EulRot),
-    LetterSet(Letter::Bx, Letter::By, Letter::Bz, Letter::Nx, Letter::Ny, Letter::Nz),
-    LetterSet(Letter::P1x, Letter::P1y, Letter::P1z, Letter::P2x, Letter::P2y, Letter::P2z,
-              Letter::P3x, Letter::P3y, Letter::P3z),
-    LetterSet(Letter::Spa, Letter::Spb, Letter::Spc),
-    LetterSet(Letter::A, Letter::B, Letter::C),
-    LetterSet(),
-};
-static_assert(std::size(kPlaneWords) == std::size(kPlaneKinds));
-
 bool parse_positioning(BlockReader& in, Plane& plane) {
   const auto found = accept_name<PlanePositioning>(in, kPlanePositionings);
   if (!found) return false;
@@ -67,8 +53,7 @@ void check_exclusive(BlockReader& in, Slice<Word> words, LetterSet letters,
 
 Statement parse_plane_kind(BlockReader& in, PlaneKind kind) {
   Plane plane{.kind = kind};
-  WordReader words(in, kEveryPlane | kPlaneWords[static_cast<std::size_t>(kind)], LetterSet(),
-                   LetterSet());
+  WordReader words(in, kEveryPlane | words_of(kind), LetterSet(), LetterSet());
   while (!in.at_end()) {
     if (!parse_positioning(in, plane) && !parse_solution(in)) words.read();
   }
@@ -77,7 +62,7 @@ Statement parse_plane_kind(BlockReader& in, PlaneKind kind) {
   check_exclusive(in, plane.words, LetterSet(Letter::TableRot, Letter::CoordRot),
                   "TABLE ROT and COORD ROT");
   if (kind == PlaneKind::Relativ)
-    check_exclusive(in, plane.words, kPlaneWords[5], "SPA, SPB and SPC of RELATIV");
+    check_exclusive(in, plane.words, words_of(kind), "SPA, SPB and SPC of RELATIV");
   return plane;
 }
 
@@ -176,6 +161,22 @@ Statement parse_tcpm(BlockReader& in) {
 }
 
 }  // namespace
+
+LetterSet words_of(PlaneKind kind) {
+  constexpr LetterSet kPlaneWords[] = {
+      LetterSet(Letter::Spa, Letter::Spb, Letter::Spc),
+      LetterSet(Letter::ProPr, Letter::ProMin, Letter::Rot),
+      LetterSet(Letter::EulPr, Letter::EulNu, Letter::EulRot),
+      LetterSet(Letter::Bx, Letter::By, Letter::Bz, Letter::Nx, Letter::Ny, Letter::Nz),
+      LetterSet(Letter::P1x, Letter::P1y, Letter::P1z, Letter::P2x, Letter::P2y, Letter::P2z,
+                Letter::P3x, Letter::P3y, Letter::P3z),
+      LetterSet(Letter::Spa, Letter::Spb, Letter::Spc),
+      LetterSet(Letter::A, Letter::B, Letter::C),
+      LetterSet(),
+  };
+  static_assert(std::size(kPlaneWords) == std::size(kPlaneKinds));
+  return kPlaneWords[static_cast<std::size_t>(kind)];
+}
 
 Statement parse_trans(BlockReader& in) {
   if (in.accept_word("DATUM")) return parse_trans_datum(in);

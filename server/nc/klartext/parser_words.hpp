@@ -15,6 +15,8 @@ inline constexpr LetterSet kIncremental = kAxes | LetterSet(Letter::Pr, Letter::
 
 /// The words of a positioning block.
 LetterSet words_of(Path path);
+/// The words that define a plane.
+LetterSet words_of(PlaneKind kind);
 
 /// Reads words of one block into the Program's pool, one at a time.
 class WordReader {

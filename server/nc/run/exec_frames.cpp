@@ -113,30 +113,13 @@ NcResult<Matrix3> rotation_of(const Channel& channel, PlaneKind kind, const Plan
   return Matrix3{};
 }
 
-/// The words of a plane that is defined by all of them.
-std::span<const Letter> all_words(PlaneKind kind) {
-  static constexpr std::array kSpatial{Letter::Spa, Letter::Spb, Letter::Spc};
-  static constexpr std::array kProjected{Letter::ProPr, Letter::ProMin, Letter::Rot};
-  static constexpr std::array kEuler{Letter::EulPr, Letter::EulNu, Letter::EulRot};
-  static constexpr std::array kVector{Letter::Bx, Letter::By, Letter::Bz,
-                                      Letter::Nx, Letter::Ny, Letter::Nz};
-  static constexpr std::array kPoints{Letter::P1x, Letter::P1y, Letter::P1z,
-                                      Letter::P2x, Letter::P2y, Letter::P2z,
-                                      Letter::P3x, Letter::P3y, Letter::P3z};
-  switch (kind) {
-    case PlaneKind::Spatial: return kSpatial;
-    case PlaneKind::Projected: return kProjected;
-    case PlaneKind::Euler: return kEuler;
-    case PlaneKind::Vector: return kVector;
-    case PlaneKind::Points: return kPoints;
-    default: return {};
-  }
-}
-
 NcResult<void> note_missing(Channel& channel, PlaneKind kind, const PlaneWords& words) {
+  // Of the other planes, one word is enough.
+  const bool needs_all = kind <= PlaneKind::Points;
   std::string missing;
-  for (const Letter letter : all_words(kind)) {
-    if (words.contains(letter)) continue;
+  for (auto letter = Letter::X; needs_all && letter <= Letter::P3z;
+       letter = static_cast<Letter>(static_cast<int>(letter) + 1)) {
+    if (!klartext::words_of(kind).contains(letter) || words.contains(letter)) continue;
     missing += (missing.empty() ? "" : ", ") + std::string(klartext::spelling(letter));
   }
   if (missing.empty()) return {};
@@ -164,8 +147,8 @@ NcResult<PlaneMoves> moves_of(Channel& channel, const klartext::Plane& plane,
   return moves;
 }
 
-NcResult<void> execute_datum_table(Channel& channel, const klartext::Trans& trans,
-                                   const PlaneWords& words) {
+NcResult<void> execute_datum_table(Channel& channel, const klartext::Trans& trans) {
+  const auto words = TRY(read_plane_words(channel, trans.words));
   if (!is_absent(trans.table)) {
     const auto written = TRY(text(channel, trans.table));
     const auto path = TRY(channel.resolve(written));
@@ -177,34 +160,16 @@ NcResult<void> execute_datum_table(Channel& channel, const klartext::Trans& tran
 }  // namespace
 
 NcResult<void> execute(Channel& channel, const klartext::Trans& trans) {
-  using klartext::Transformation;
-  if (trans.kind == Transformation::Datum || trans.kind == Transformation::DatumTable) {
-    if (trans.reset) return reset_datum_shift(channel);
-  }
-  if (trans.kind == Transformation::Datum) {
-    const auto axes = read_axis_words(channel, channel.program().view(trans.words));
-    return axes ? shift_datum(channel, *axes) : axes.error();
-  }
-  if (trans.kind == Transformation::Mirror) {
-    if (trans.reset) return mirror(channel, {});
-    return mirror(channel, TRY(mirrored_axes(channel.program().view(trans.words))));
-  }
-  const auto words = TRY(read_plane_words(channel, trans.words));
-  switch (trans.kind) {
-    case Transformation::DatumTable: return execute_datum_table(channel, trans, words);
-    case Transformation::Rotation: {
-      bool incremental = false;
-      for (const klartext::Word& word : channel.program().view(trans.words)) {
-        incremental = incremental || word.incremental;
-      }
-      return rotate(channel,
-                    trans.reset ? Coordinate{} : Coordinate{get(words, Letter::Rot), incremental});
-    }
-    default: {
-      const double factor = trans.reset ? 1 : get(words, Letter::Scl);
-      return scale(channel, {{factor, factor, factor}, {}});
-    }
-  }
+  using enum klartext::Transformation;
+  if ((trans.kind == Datum || trans.kind == DatumTable) && trans.reset)
+    return reset_datum_shift(channel);
+  if (trans.kind == DatumTable) return execute_datum_table(channel, trans);
+  // Without words a transformation ends.
+  const int cycle = trans.kind == Datum      ? 7
+                    : trans.kind == Mirror   ? 8
+                    : trans.kind == Rotation ? 10
+                                             : 11;
+  return execute_transformation(channel, cycle, channel.program().view(trans.words));
 }
 
 NcResult<void> execute(Channel& channel, const klartext::Plane& plane) {

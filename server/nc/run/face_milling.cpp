@@ -49,35 +49,34 @@ NcResult<void> mill_face(Machining& cycle) {
   const auto to_next = cycle.feed(cycle.value(389) == 1 ? 207 : 253);
   if (motion.height() < heights.second)
     TRY(motion.to_height(heights.second, machine::Feed::rapid()));
-  auto done = motion.to_point(lanes.first, machine::Feed::rapid());
+  TRY(motion.to_point(lanes.first, machine::Feed::rapid()));
   const double rough = std::min(heights.surface, heights.bottom + cycle.value(369));
   const double least = cycle.value(202) > 0 ? cycle.value(202) : heights.surface - rough;
   const double infeeds =
       least > 0 ? std::ceil((heights.surface - rough) / least - tolerance::kSamePoint) : 0;
   const double all = infeeds + (rough > heights.bottom ? 1 : 0);
   bool to_far = true;
-  for (double infeed = 1; done && infeed <= all; ++infeed) {
+  for (double infeed = 1; infeed <= all; ++infeed) {
     const double depth = infeed > infeeds
                              ? heights.bottom
                              : heights.surface - (heights.surface - rough) * infeed / infeeds;
     const auto feed = cycle.feed(infeed == all ? 385 : 207);
     const bool backwards = std::fmod(infeed, 2) == 0;
-    if (infeed == 1) done = motion.to_height(depth, cycle.feed(253));
-    for (double k = 0; done && k < lanes.count; ++k) {
+    if (infeed == 1) TRY(motion.to_height(depth, cycle.feed(253)));
+    for (double k = 0; k < lanes.count; ++k) {
       const double lane = backwards ? lanes.count - 1 - k : k;
       const bool enters = infeed == 1 && k == 0;
       if (line_by_line && !enters) {
-        done = motion.to_height(depth + cycle.value(200), cycle.feed(253));
-        if (done) done = motion.to_point(lanes.end(lane, false), cycle.feed(253));
+        TRY(motion.to_height(depth + cycle.value(200), cycle.feed(253)));
+        TRY(motion.to_point(lanes.end(lane, false), cycle.feed(253)));
       } else if (!enters) {
-        done = motion.to_point(lanes.end(lane, !to_far), to_next);
+        TRY(motion.to_point(lanes.end(lane, !to_far), to_next));
       }
-      if (done) done = motion.to_height(depth, cycle.feed(253));
-      if (done) done = motion.to_point(lanes.end(lane, to_far), feed);
+      TRY(motion.to_height(depth, cycle.feed(253)));
+      TRY(motion.to_point(lanes.end(lane, to_far), feed));
       if (!line_by_line) to_far = !to_far;
     }
   }
-  if (!done) return done;
   return motion.to_height(heights.second, machine::Feed::rapid());
 }
 

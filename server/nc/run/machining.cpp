@@ -155,27 +155,24 @@ NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definit
   TRY(note_standing(channel, *definition.cycle));
   TRY(note_probe(channel, *definition.cycle));
   TRY(note_corner(channel, definition));
-  switch (shape) {
-    case MachiningShape::Drilling: return drill(cycle);
-    case MachiningShape::Boring: return bore(cycle);
-    case MachiningShape::BackBoring: return bore_back(cycle);
-    case MachiningShape::Tapping: return tap(cycle);
-    case MachiningShape::BoreMilling: return mill_bore(cycle);
-    case MachiningShape::RectangularPocket: return mill_rectangle(cycle);
-    case MachiningShape::CircularPocket: return mill_circle(cycle);
-    case MachiningShape::Slot: return mill_slot(cycle);
-    case MachiningShape::CircularSlot: return mill_circular_slot(cycle);
-    case MachiningShape::RectangularStud: return mill_rectangular_stud(cycle);
-    case MachiningShape::CircularStud: return mill_circular_stud(cycle);
-    case MachiningShape::FaceMilling: return mill_face(cycle);
-    case MachiningShape::ThreadMilling: return mill_thread(cycle);
-    case MachiningShape::Engraving: return engrave(cycle);
-    case MachiningShape::Contour: return mill_contours(channel, cycle);
-    case MachiningShape::PolarPattern:
-    case MachiningShape::LinearPattern:
-    case MachiningShape::ContourLabels:
-    case MachiningShape::ContourData: break;
-  }
+  if (shape == MachiningShape::Contour) return mill_contours(channel, cycle);
+  // In the order of MachiningShape.
+  constexpr NcResult<void> (*kMachine[])(Machining&) = {drill,
+                                                        bore,
+                                                        bore_back,
+                                                        tap,
+                                                        mill_bore,
+                                                        mill_rectangle,
+                                                        mill_circle,
+                                                        mill_slot,
+                                                        mill_circular_slot,
+                                                        mill_rectangular_stud,
+                                                        mill_circular_stud,
+                                                        mill_face,
+                                                        mill_thread,
+                                                        engrave};
+  const auto index = static_cast<std::size_t>(shape);
+  if (index < std::size(kMachine)) return kMachine[index](cycle);
   return nc_error(1027);  // they are not called
 }
 

@@ -72,9 +72,9 @@ NcResult<void> go_around(Machining& cycle, const Outline& outline, double a, dou
 /// A pocket or slot: back to its middle after each round.
 NcResult<void> mill_inside(Machining& cycle, const Outline& outline, double a, double b,
                            double corner) {
-  return at_each_depth(cycle, outline.origin, [&](double depth) {
-    auto done = go_around(cycle, outline, a, b, corner, depth, turn_inside(cycle));
-    return done ? cycle.motion.to_point(outline.origin, cycle.feed(207)) : done;
+  return at_each_depth(cycle, outline.origin, [&](double depth) -> NcResult<void> {
+    TRY(go_around(cycle, outline, a, b, corner, depth, turn_inside(cycle)));
+    return cycle.motion.to_point(outline.origin, cycle.feed(207));
   });
 }
 
@@ -133,12 +133,12 @@ NcResult<void> mill_outside(Machining& cycle, double excess, const Point& point,
   const Vec2 start = point(1, kBeside);
   TRY(cycle.motion.to_point(start, Feed::rapid()));
   return at_each_depth(cycle, start, [&](double depth) -> NcResult<void> {
-    auto done = onto_circle(cycle, start, point((rounds - 1) / rounds, 0), turn, depth, feed);
-    for (double left = rounds - 1; done && left >= 0; --left) {
-      done = cycle.motion.to_point(point(left / rounds, 0), feed);
-      if (done) done = around(left / rounds, depth);
+    TRY(onto_circle(cycle, start, point((rounds - 1) / rounds, 0), turn, depth, feed));
+    for (double left = rounds - 1; left >= 0; --left) {
+      TRY(cycle.motion.to_point(point(left / rounds, 0), feed));
+      TRY(around(left / rounds, depth));
     }
-    return done ? off_circle(cycle, start, turn, depth, feed) : done;
+    return off_circle(cycle, start, turn, depth, feed);
   });
 }
 
@@ -205,11 +205,10 @@ NcResult<void> mill_bore(Machining& cycle) {
     const double turns = (heights.clearance - heights.bottom) / cycle.value(334);
     const double sweep = turn_inside(cycle) * 360 * turns;
     const Vec2 end = centre + turned(start - centre, sweep);
-    auto done = onto_circle(cycle, centre, start, sweep, heights.clearance, feed);
-    if (done) done = motion.arc(centre, end, sweep, heights.bottom, feed);
-    if (done) done = motion.arc(centre, end, turn_inside(cycle) * 360, heights.bottom, feed);
-    if (done) done = off_circle(cycle, centre, sweep, heights.bottom, feed);
-    if (!done) return done;
+    TRY(onto_circle(cycle, centre, start, sweep, heights.clearance, feed));
+    TRY(motion.arc(centre, end, sweep, heights.bottom, feed));
+    TRY(motion.arc(centre, end, turn_inside(cycle) * 360, heights.bottom, feed));
+    TRY(off_circle(cycle, centre, sweep, heights.bottom, feed));
   }
   TRY(motion.to_height(heights.clearance, Feed::rapid()));
   return cycle.leave();
@@ -273,26 +272,21 @@ NcResult<void> mill_circular_slot(Machining& cycle) {
   for (int i = 0; i < slots; ++i) {
     const double first = angle + i * cycle.value(378);
     const double last = first + length;
+    const auto on = [&](double radius, double at) { return centre + polar(radius, at); };
     if (i > 0 || place == 0) {
-      auto done = motion.to_height(cycle.heights.second, Feed::rapid());
-      if (done) done = motion.to_point(centre + polar(pitch, first), Feed::rapid());
-      if (!done) return done;
+      TRY(motion.to_height(cycle.heights.second, Feed::rapid()));
+      TRY(motion.to_point(on(pitch, first), Feed::rapid()));
     }
-    auto done = at_each_depth(cycle, centre + polar(pitch, first), [&](double depth) {
-      const auto on = [&](double radius, double at) { return centre + polar(radius, at); };
-      auto milled = motion.to_point(on(pitch + width, first), feed);
-      if (milled) milled = motion.arc(centre, on(pitch + width, last), length, depth, feed);
-      if (width > tolerance::kSamePoint) {
-        const double end = std::copysign(180, length);
-        if (milled) milled = motion.arc(on(pitch, last), on(pitch - width, last), end, depth, feed);
-        if (milled) milled = motion.arc(centre, on(pitch - width, first), -length, depth, feed);
-        if (milled) {
-          milled = motion.arc(on(pitch, first), on(pitch + width, first), end, depth, feed);
-        }
-      }
-      return milled;
-    });
-    if (!done) return done;
+    const auto mill = [&](double depth) -> NcResult<void> {
+      TRY(motion.to_point(on(pitch + width, first), feed));
+      TRY(motion.arc(centre, on(pitch + width, last), length, depth, feed));
+      if (width <= tolerance::kSamePoint) return {};
+      const double end = std::copysign(180, length);
+      TRY(motion.arc(on(pitch, last), on(pitch - width, last), end, depth, feed));
+      TRY(motion.arc(centre, on(pitch - width, first), -length, depth, feed));
+      return motion.arc(on(pitch, first), on(pitch + width, first), end, depth, feed);
+    };
+    TRY(at_each_depth(cycle, on(pitch, first), mill));
   }
   return {};
 }

@@ -68,17 +68,8 @@ struct PatternPart {
   }
 };
 
-bool is_length(Letter letter) {
-  switch (letter) {
-    case Letter::X:
-    case Letter::Y:
-    case Letter::Z:
-    case Letter::D:
-    case Letter::Dx:
-    case Letter::Dy: return true;
-    default: return false;
-  }
-}
+constexpr klartext::LetterSet kLengths(Letter::X, Letter::Y, Letter::Z, Letter::D, Letter::Dx,
+                                       Letter::Dy);
 
 NcResult<std::vector<PatternPart>> read_elements(Channel& channel, klartext::Slice<Word> slice) {
   std::vector<PatternPart> elements;
@@ -91,7 +82,7 @@ NcResult<std::vector<PatternPart>> read_elements(Channel& channel, klartext::Sli
       continue;
     }
     const auto value = TRY(number(channel, words[i].value));
-    const double unit = is_length(words[i].letter) ? channel.length_unit() : 1;
+    const double unit = kLengths.contains(words[i].letter) ? channel.length_unit() : 1;
     double from = 0;
     if (words[i].incremental) {
       if (elements.size() < 2)
@@ -184,18 +175,16 @@ NcResult<void> run_pattern(Channel& channel, const MachiningDefinition& pattern)
   ToolMotion motion(channel.machine(), channel.budget);
   bool is_first = true;
   for (const Vec2 point : points) {
-    auto done = motion.to_height(is_first ? height : between, Feed::rapid());
-    const Vec2 from = motion.point();
-    if (done && is_circle && pattern.value(365) == 1 && !is_first) {
+    TRY(motion.to_height(is_first ? height : between, Feed::rapid()));
+    if (is_circle && pattern.value(365) == 1 && !is_first) {
       const double step = pattern.value(247) != 0 ? pattern.value(247) : 1;
-      done = motion.arc(centre, point, sweep(from, point, centre, step > 0), motion.height(),
-                        Feed::rapid());
-    } else if (done) {
-      done = motion.to_point(point, Feed::rapid());
+      TRY(motion.arc(centre, point, sweep(motion.point(), point, centre, step > 0), motion.height(),
+                     Feed::rapid()));
+    } else {
+      TRY(motion.to_point(point, Feed::rapid()));
     }
     is_first = false;
-    if (done) done = machine_here(channel, cycle);
-    if (!done) return done;
+    TRY(machine_here(channel, cycle));
   }
   return {};
 }
@@ -212,10 +201,9 @@ NcResult<void> run_points(Channel& channel) {
     MachiningDefinition cycle = *active;
     cycle.values[203] = active->value(203) + point.z;
     const double height = cycle.value(203) + std::max(cycle.value(200), cycle.value(204));
-    auto done = motion.to_height(height, Feed::rapid());
-    if (done) done = motion.to_point({point.x, point.y}, Feed::rapid());
-    if (done) done = machine_here(channel, cycle);
-    if (!done) return done;
+    TRY(motion.to_height(height, Feed::rapid()));
+    TRY(motion.to_point({point.x, point.y}, Feed::rapid()));
+    TRY(machine_here(channel, cycle));
   }
   return {};
 }

@@ -9,6 +9,7 @@ namespace {
 using machine::Axis;
 using machine::CoordinateSystem;
 using machine::MachineState;
+using machine::Vec3;
 
 struct Address {
   int id = 0;
@@ -49,53 +50,17 @@ double axis_number(const std::optional<Axis>& axis) {
 
 using Answer = std::optional<double>;
 
-Answer program_data(const Channel& channel, const Address& address) {
-  switch (address.nr) {
-    case 1: return channel.calls.main_program().is_inch() ? 1 : 0;
-    case 3: return channel.active_cycle.number;
-    case 6: return channel.active_cycle.last_probing;
-    case 103: {  // whether the block of the active cycle has the parameter Q IDX
-      const auto* machining = std::get_if<MachiningDefinition>(&channel.active_cycle.definition);
-      if (machining == nullptr || !address.index) return std::nullopt;
-      return machining->gives(*address.index) ? 1 : 0;
-    }
-    case 8: {
-      const LinkedProgram* caller = channel.calls.caller();
-      return caller != nullptr && caller->is_inch() ? 1 : 0;
-    }
-    case 110:
-    case 111: {
-      // Whether the file (110) or directory (111) that QS IDX names exists.
-      const auto number = address.index.value_or(-1);
-      if (number < 0 || number >= parameter_count(klartext::QSpace::Qs)) return std::nullopt;
-      const std::string* name = channel.parameters.string(static_cast<std::uint16_t>(number));
-      if (name == nullptr) return std::nullopt;
-      const bool is_directory = address.nr == 111;
-      const auto path = channel.resolve(is_directory ? *name + "\\x" : *name);
-      if (!path) return 0;
-      return (is_directory ? channel.files.has_directory(path->directory())
-                           : channel.files.revision(*path).has_value())
-                 ? 1
-                 : 0;
-    }
-    default: return std::nullopt;
-  }
-}
-
-Answer machine_data(const Channel& channel, const Address& address) {
-  const MachineState& state = channel.machine().state();
-  const machine::Modes& modes = state.modes;
-  switch (address.nr) {
-    case 1: return state.tool.number;
-    case 2: return channel.prepared_tool;
-    case 3: return axis_number(state.tool.axis);
-    case 4: return modes.spindle_rpm;
-    case 5: return static_cast<int>(modes.spindle);
-    case 8: return modes.coolant ? 1 : 0;
-    case 9: return modes.feed_mm_min;
-    case 11: return 0;  // no indexed tools
-    default: return std::nullopt;
-  }
+/// Whether the file (NR 110) or directory (111) that QS IDX names exists.
+Answer exists(const Channel& channel, const Address& address) {
+  const auto number = address.index.value_or(-1);
+  if (number < 0 || number >= parameter_count(klartext::QSpace::Qs)) return std::nullopt;
+  const std::string* name = channel.parameters.string(static_cast<std::uint16_t>(number));
+  if (name == nullptr) return std::nullopt;
+  const bool is_directory = address.nr == 111;
+  const auto path = channel.resolve(is_directory ? *name + "\\x" : *name);
+  if (!path) return 0;
+  return is_directory ? channel.files.has_directory(path->directory())
+                      : channel.files.revision(*path).has_value();
 }
 
 /// A row of tool.t; row 0, which every table has, is the empty spindle.
@@ -120,111 +85,14 @@ Answer tool_data(const MachineState& state, const Address& address) {
   return address.nr == 25 ? probe->cal_of2 : probe->cal_ang;
 }
 
-Answer tool_call_data(const MachineState& state, const Address& address) {
-  switch (address.nr) {
-    case 1: return state.tool.number;
-    case 2: return axis_number(state.tool.axis);
-    case 3: return state.modes.spindle_rpm;
-    case 4: return state.tool.dl;
-    case 5: return state.tool.dr;
-    case 6: return 0;  // automatic TOOL CALL off
-    case 7: return state.tool.dr2;
-    default: return std::nullopt;
-  }
-}
-
-Answer active_tool_data(const MachineState& state, const Address& address) {
-  switch (address.nr) {
-    case 1: return state.tool_radius();
-    case 2: return state.tool_length();
-    default: return std::nullopt;
-  }
-}
-
-Answer transformation_data(const MachineState& state, const Address& address) {
-  const machine::Frames& frames = state.frames;
-  const auto axis = axis_of(address);
-  const bool is_linear = axis && !machine::is_rotary(*axis);
-  switch (address.nr) {
-    case 1: return frames.preset().basic_rotation_deg.z;
-    case 2: return frames.rotation().angle_deg;
-    case 3: {
-      double bits = 0;
-      for (std::size_t i = 0; i < 3; ++i) bits += frames.mirror()[i] ? double(1U << i) : 0;
-      return bits;
-    }
-    case 4: return is_linear ? frames.scaling().factor[machine::index(*axis)] : 1;
-    case 5: {
-      if (!is_linear) return std::nullopt;
-      return frames.plane() ? frames.plane()->spatial_deg[machine::index(*axis)] : 0;
-    }
-    case 6: return frames.is_tilted() ? -1 : 0;
-    case 7: return 0;  // not tilted in Manual
-    default: return std::nullopt;
-  }
-}
-
-Answer shift_data(const MachineState& state, const Address& address) {
-  const auto axis = axis_of(address);
-  if (!axis) return std::nullopt;
-  switch (address.nr) {
-    case 2: return state.frames.datum_shift()[*axis];
-    case 3: {
-      const auto& preset = state.frames.preset();
-      const std::size_t i = machine::index(*axis);
-      return machine::is_rotary(*axis) ? preset.rotary_offsets_deg[i - 3] : preset.origin[i];
-    }
-    case 4: return 0;  // no PLC shift
-    default: return std::nullopt;
-  }
-}
-
-Answer limit_data(const MachineState& state, const Address& address) {
-  if (address.nr == 5) return 1;  // the limits are active
-  const auto axis = axis_of(address);
-  if (!axis || !state.ranges[machine::index(*axis)]) return std::nullopt;
-  const machine::AxisRange& range = *state.ranges[machine::index(*axis)];
-  switch (address.nr) {
-    case 2: return range.min;
-    case 3: return range.max;
-    default: return std::nullopt;
-  }
-}
-
-Answer position_data(const MachineState& state, const Address& address, CoordinateSystem system) {
-  const auto axis = axis_of(address);
-  if (!axis) return std::nullopt;
+double position_data(const MachineState& state, Axis axis, CoordinateSystem system) {
   // Rounds like results of cycles to a nanometre, so that equal positions are equal (decision 21).
-  const double steps = machine::is_rotary(*axis) ? 1e7 : 1e6;
-  return std::round(state.position(system)[*axis] * steps) / steps + 0.0;
+  const double steps = machine::is_rotary(axis) ? 1e7 : 1e6;
+  return std::round(state.position(system)[axis] * steps) / steps + 0.0;
 }
 
-Answer tcpm_data(const MachineState& state, const Address& address) {
-  switch (address.nr) {
-    case 1: return state.modes.tcpm ? -1 : 0;
-    case 2: return state.modes.feed_mm_min;
-    default: return std::nullopt;
-  }
-}
-
-/// Returns which of three M functions is on.
-Answer m_function_data(const Channel& channel, const Address& address) {
-  const machine::Modes& modes = channel.machine().state().modes;
-  switch (address.nr) {
-    case 116: return modes.feed_at_circumference ? -1 : 0;
-    case 128: return modes.tcpm ? -1 : 0;
-    case 144: return modes.kinematics_in_display ? -1 : 0;
-    default: return std::nullopt;
-  }
-}
-
+/// Data of the touch probe in the spindle.
 Answer probe_data(const MachineState& state, const Address& address) {
-  if (address.nr == 20) {
-    const auto axis = axis_of(address);
-    return axis && !machine::is_rotary(*axis) ? Answer(state.tt.centre[machine::index(*axis)])
-                                              : std::nullopt;
-  }
-  if (address.nr == 21) return state.tt.radius;
   const auto probe = state.probe_system();
   if (!probe) return std::nullopt;
   const machine::ProbeRow& row = probe->data;
@@ -249,18 +117,100 @@ Answer probe_data(const MachineState& state, const Address& address) {
   }
 }
 
-Answer touch_data(const Channel& channel, const Address& address) {
+constexpr int key(int id, int nr) { return id * 1000 + nr; }
+
+/// Data of an axis, by IDX.
+Answer axis_data(const Channel& channel, const Address& address) {
   const auto axis = axis_of(address);
-  if (!axis || !channel.last_touch) return std::nullopt;
-  const machine::ContactPoint& touch = *channel.last_touch;
-  const bool is_linear = !machine::is_rotary(*axis);
-  const std::size_t i = machine::index(*axis);
-  switch (address.nr) {
-    case 1: return is_linear ? Answer(touch.surface[i]) : std::nullopt;
-    case 2: return touch.nose[*axis];
-    case 3: return is_linear ? Answer(touch.tip[i]) : std::nullopt;
+  if (!axis) return std::nullopt;
+  const MachineState& state = channel.machine().state();
+  const auto& frames = state.frames;
+  const auto& touch = channel.last_touch;
+  const auto& range = state.ranges[machine::index(*axis)];
+  const bool is_rotary = machine::is_rotary(*axis);
+  const std::size_t i = machine::index(*axis) - (is_rotary ? 3 : 0);
+  const auto of_linear = [&](const Vec3& values) {
+    return is_rotary ? std::nullopt : Answer(values[i]);
+  };
+  switch (key(address.id, address.nr)) {
+    case key(210, 5): return of_linear(frames.plane() ? frames.plane()->spatial_deg : Vec3{});
+    case key(220, 2): return frames.datum_shift()[*axis];
+    case key(220, 3):
+      return is_rotary ? frames.preset().rotary_offsets_deg[i] : frames.preset().origin[i];
+    case key(220, 4): return 0;  // no PLC shift
+    case key(230, 2): return range ? Answer(range->min) : std::nullopt;
+    case key(230, 3): return range ? Answer(range->max) : std::nullopt;
+    case key(240, 1):
+    case key(240, 8): return position_data(state, *axis, CoordinateSystem::Reference);  // as M91
+    case key(270, 1): return position_data(state, *axis, CoordinateSystem::Input);
+    case key(350, 20): return of_linear(state.tt.centre);
+    case key(360, 1): return touch ? of_linear(touch->surface) : std::nullopt;
+    case key(360, 2): return touch ? Answer(touch->nose[*axis]) : std::nullopt;
+    case key(360, 3): return touch ? of_linear(touch->tip) : std::nullopt;
     default: return std::nullopt;
   }
+}
+
+Answer find(const Channel& channel, const Address& address) {
+  const MachineState& state = channel.machine().state();
+  const machine::Frames& frames = state.frames;
+  const machine::Modes& modes = state.modes;
+  const auto axis = axis_of(address);
+  switch (key(address.id, address.nr)) {
+    case key(10, 1): return channel.calls.main_program().is_inch();
+    case key(10, 3): return channel.active_cycle.number;
+    case key(10, 6): return channel.active_cycle.last_probing;
+    case key(10, 8): return channel.calls.caller() != nullptr && channel.calls.caller()->is_inch();
+    case key(10, 103): {  // whether the block of the active cycle has the parameter Q IDX
+      const auto* machining = std::get_if<MachiningDefinition>(&channel.active_cycle.definition);
+      if (machining == nullptr || !address.index) return std::nullopt;
+      return machining->gives(*address.index);
+    }
+    case key(10, 110):
+    case key(10, 111): return exists(channel, address);
+    case key(20, 1):
+    case key(60, 1): return state.tool.number;
+    case key(20, 2): return channel.prepared_tool;
+    case key(20, 3):
+    case key(60, 2): return axis_number(state.tool.axis);
+    case key(20, 4):
+    case key(60, 3): return modes.spindle_rpm;
+    case key(20, 5): return static_cast<int>(modes.spindle);
+    case key(20, 8): return modes.coolant;
+    case key(20, 9): return modes.feed_mm_min;
+    case key(20, 11): return 0;  // no indexed tools
+    case key(60, 4): return state.tool.dl;
+    case key(60, 5): return state.tool.dr;
+    case key(60, 6): return 0;  // automatic TOOL CALL off
+    case key(60, 7): return state.tool.dr2;
+    case key(200, 1): return state.tool_radius();
+    case key(200, 2): return state.tool_length();
+    case key(210, 1): return frames.preset().basic_rotation_deg.z;
+    case key(210, 2): return frames.rotation().angle_deg;
+    case key(210, 3):
+      return (frames.mirror()[0] ? 1 : 0) + (frames.mirror()[1] ? 2 : 0) +
+             (frames.mirror()[2] ? 4 : 0);
+    case key(210, 4):
+      return axis && !machine::is_rotary(*axis) ? frames.scaling().factor[machine::index(*axis)]
+                                                : 1;
+    case key(210, 6): return frames.is_tilted() ? -1 : 0;
+    case key(210, 7): return 0;  // not tilted in Manual
+    case key(230, 5): return 1;  // the limits are active
+    case key(280, 1):
+    case key(310, 128): return modes.tcpm ? -1 : 0;
+    case key(280, 2): return modes.feed_mm_min;
+    case key(310, 116): return modes.feed_at_circumference ? -1 : 0;
+    case key(310, 144): return modes.kinematics_in_display ? -1 : 0;
+    case key(320, 1): return std::floor(static_cast<double>(channel.now().nanoseconds) / 1e9);
+    case key(350, 21): return state.tt.radius;
+    case key(505, 1): return channel.tables.has_datum_table();
+    case key(990, 6): return 0;   // cycle 3 probes with the touch probe
+    case key(990, 16): return 0;  // no block scan
+    default: break;
+  }
+  if (address.id == 50) return tool_data(state, address);
+  return address.id == 350 && address.nr != 20 ? probe_data(state, address)
+                                               : axis_data(channel, address);
 }
 
 /// ID500: the datum table, NR is the row.
@@ -279,40 +229,6 @@ NcResult<double> preset_data(const MachineState& state, const Address& address) 
   const std::size_t i = machine::index(*axis);
   return machine::is_rotary(*axis) ? preset->frame.rotary_offsets_deg[i - 3]
                                    : preset->frame.origin[i];
-}
-
-Answer find(Channel& channel, const Address& address) {
-  const MachineState& state = channel.machine().state();
-  switch (address.id) {
-    case 10: return program_data(channel, address);
-    case 20: return machine_data(channel, address);
-    case 50: return tool_data(state, address);
-    case 60: return tool_call_data(state, address);
-    case 200: return active_tool_data(state, address);
-    case 210: return transformation_data(state, address);
-    case 220: return shift_data(state, address);
-    case 230: return limit_data(state, address);
-    case 240:  // the spindle nose, as M91 (decision 22)
-      if (address.nr != 1 && address.nr != 8) return std::nullopt;
-      return position_data(state, address, CoordinateSystem::Reference);
-    case 270:
-      if (address.nr != 1) return std::nullopt;
-      return position_data(state, address, CoordinateSystem::Input);
-    case 280: return tcpm_data(state, address);
-    case 310: return m_function_data(channel, address);
-    case 320:
-      if (address.nr != 1) return std::nullopt;
-      return std::floor(static_cast<double>(channel.now().nanoseconds) / 1e9);
-    case 350: return probe_data(state, address);
-    case 360: return touch_data(channel, address);
-    case 505:
-      if (address.nr != 1) return std::nullopt;
-      return channel.tables.has_datum_table() ? 1 : 0;
-    case 990:  // NR 6: cycle 3 probes with the touch probe; NR 16: no block scan
-      if (address.nr == 6 || address.nr == 16) return 0;
-      return std::nullopt;
-    default: return std::nullopt;
-  }
 }
 
 NcResult<void> write_tool(Channel& channel, const Address& address, double value) {
