@@ -57,10 +57,7 @@ class Walk {
     has_corner_ = named.has_corner;
     visit(named.path);
     if (!named.has_corner) return;
-    const auto dropped =
-        std::remove_if(diagnostics_.begin() + before, diagnostics_.end(),
-                       [](const Diagnostic& found) { return found.message == kNoLowerCorner; });
-    diagnostics_.erase(dropped, diagnostics_.end());
+    drop(before, [](const Diagnostic& found) { return found.message == kNoLowerCorner; });
   }
 
   bool visit(const ControlPath& path) {
@@ -71,12 +68,16 @@ class Walk {
     add(linked->diagnostics);
     const auto before = static_cast<std::ptrdiff_t>(diagnostics_.size());
     for (const FileReference& reference : linked->references) follow(path, reference);
-    if (linked->with_error_blocks == nullptr) return true;
-    const auto ignored = std::remove_if(
-        diagnostics_.begin() + before, diagnostics_.end(),
-        [&](const auto& found) { return is_ignored(linked->with_error_blocks->program(), found); });
-    diagnostics_.erase(ignored, diagnostics_.end());
+    if (known == nullptr) return true;
+    drop(before, [&](const auto& found) { return is_ignored(known->program(), found); });
     return true;
+  }
+
+  /// Drops findings from the place `first` on.
+  void drop(std::ptrdiff_t first, const auto& is_dropped) {
+    const auto dropped =
+        std::remove_if(diagnostics_.begin() + first, diagnostics_.end(), is_dropped);
+    diagnostics_.erase(dropped, diagnostics_.end());
   }
 
   void add(const std::vector<Diagnostic>& found) {
@@ -157,7 +158,7 @@ Result<std::vector<Diagnostic>> check(const ControlPath& program, const ControlD
 }
 
 bool has_errors(const std::vector<Diagnostic>& diagnostics, bool keeps_unreadable) {
-  return std::any_of(diagnostics.begin(), diagnostics.end(), [=](const Diagnostic& diagnostic) {
+  return std::ranges::any_of(diagnostics, [=](const Diagnostic& diagnostic) {
     return diagnostic.severity == Severity::Error &&
            !(keeps_unreadable && diagnostic.is_unreadable);
   });

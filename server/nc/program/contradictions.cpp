@@ -1,5 +1,3 @@
-#include "nc/program/contradictions.hpp"
-
 #include <bitset>
 
 #include "base/text.hpp"
@@ -8,6 +6,7 @@
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/followed_values.hpp"
+#include "nc/program/link_check.hpp"
 #include "nc/program/machining_cycles.hpp"
 #include "nc/program/parameter.hpp"
 #include "nc/program/word_senses.hpp"
@@ -55,11 +54,11 @@ class Contradictions {
   }
 
  private:
-  void warn(DiagnosticCode code, klartext::Slice<char> place, std::string message,
-            const Block* block = nullptr, Severity severity = Severity::Warning) {
-    if (diagnostics_.size() >= kMostFindings) return;
-    diagnostics_.push_back(diagnose(program_, block != nullptr ? *block : *block_, place, severity,
-                                    code, std::move(message)));
+  /// @returns the finding; null if there are too many
+  klartext::Diagnostic* warn(DiagnosticCode code, klartext::Slice<char> place, std::string message,
+                             const Block* block = nullptr, Severity severity = Severity::Warning) {
+    return report(diagnostics_, program_, block != nullptr ? *block : *block_, place, severity,
+                  code, std::move(message));
   }
   std::uint32_t line_of(const Block& block) const {
     return program_.range(block.written).begin.line;
@@ -213,21 +212,20 @@ class Contradictions {
       std::string given;
       for (const auto& result : last_measured_->results)
         given += fmt::format("{}Q{}", given.empty() ? "" : ", ", result.q);
-      const std::size_t before = diagnostics_.size();
-      warn(DiagnosticCode::ResultUnset, block->written,
-           fmt::format("no cycle and no block of this program sets Q{}; cycle {} gives {}: read "
-                       "one of these",
-                       number, last_measured_->number, given),
-           block);
-      if (before == diagnostics_.size()) continue;
-      klartext::Diagnostic& found = diagnostics_.back();
-      found.notes.push_back(
+      auto* found =
+          warn(DiagnosticCode::ResultUnset, block->written,
+               fmt::format("no cycle and no block of this program sets Q{}; cycle {} gives {}: "
+                           "read one of these",
+                           number, last_measured_->number, given),
+               block);
+      if (found == nullptr) continue;
+      found->notes.push_back(
           {fmt::format("cycle {}", last_measured_->number), program_.range(measuring_->written)});
       auto edits = edits_of(blocks, static_cast<std::uint16_t>(number));
       for (const auto& result : last_measured_->results) {
         if (edits.empty()) break;
         for (auto& edit : edits) edit.by = fmt::format("Q{}", result.q);
-        found.remedies.push_back(
+        found->remedies.push_back(
             {fmt::format("Read Q{}: {}", result.q, result.meaning), edits, false});
       }
     }
@@ -337,19 +335,18 @@ class Contradictions {
     const FollowedValue& at = b.block != block_ && (a.block == block_ || b.block > a.block) ? b : a;
     const auto is_same = [&](const auto& found) { return found.message == message; };
     if (is_called_ && (at.block == block_ || std::ranges::any_of(diagnostics_, is_same))) return;
-    const std::size_t before = diagnostics_.size();
-    warn(DiagnosticCode::OrderContradicts, at.place, std::move(message), at.block);
-    if (before == diagnostics_.size()) return;
-    klartext::Diagnostic& found = diagnostics_.back();
+    auto* found = warn(DiagnosticCode::OrderContradicts, at.place, std::move(message), at.block);
+    if (found == nullptr) return;
     const FollowedValue& behind = &at == &a ? b : a;
-    if (exchanges) add_exchange(found, at, behind);
+    if (exchanges) add_exchange(*found, at, behind);
     const SourceRange other = program_.range(behind.place);
-    if (other.begin.line != found.range.begin.line)
-      found.notes.push_back({"the other number", other, {}});
-    if (at.block != block_ && behind.block != block_)
-      found.notes.push_back({"the cycle that reads it",
-                             diagnose(program_, *block_, Severity::Note, found.code, {}).range,
-                             {}});
+    if (other.begin.line != found->range.begin.line)
+      found->notes.push_back({"the other number", other, {}});
+    if (at.block != block_ && behind.block != block_) {
+      const auto cycle =
+          diagnose(program_, *block_, block_->written, Severity::Note, found->code, {});
+      found->notes.push_back({"the cycle that reads it", cycle.range, {}});
+    }
   }
 
   /// The remedy for two numbers; for one, its minus.

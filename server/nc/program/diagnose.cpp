@@ -56,12 +56,6 @@ std::uint32_t last_line_of_block(const klartext::Program& program, std::uint32_t
 using klartext::Diagnostic;
 
 Diagnostic diagnose(const klartext::Program& program, const klartext::Block& block,
-                    klartext::Severity severity, klartext::DiagnosticCode code,
-                    std::string message) {
-  return diagnose(program, block, block.written, severity, code, std::move(message));
-}
-
-Diagnostic diagnose(const klartext::Program& program, const klartext::Block& block,
                     klartext::Slice<char> place, klartext::Severity severity,
                     klartext::DiagnosticCode code, std::string message) {
   // A finding is within one physical line.
@@ -75,6 +69,15 @@ Diagnostic diagnose(const klartext::Program& program, const klartext::Block& blo
           range,
           block.number,
           std::string(program.line(range.begin.line))};
+}
+
+Diagnostic* report(std::vector<Diagnostic>& diagnostics, const klartext::Program& program,
+                   const klartext::Block& block, klartext::Slice<char> place,
+                   klartext::Severity severity, klartext::DiagnosticCode code,
+                   std::string message) {
+  if (diagnostics.size() >= kMostFindings) return nullptr;
+  return &diagnostics.emplace_back(
+      diagnose(program, block, place, severity, code, std::move(message)));
 }
 
 std::vector<klartext::Slice<char>> places_of(const klartext::Program& program,

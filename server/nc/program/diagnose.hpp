@@ -9,14 +9,16 @@ namespace fitgauge::interpreter {
 /// Maximum number of findings.
 inline constexpr std::size_t kMostFindings = 200;
 
-/// Makes a finding about a place of a program: by default a block, up to the end of its first
-/// physical line.
-klartext::Diagnostic diagnose(const klartext::Program& program, const klartext::Block& block,
-                              klartext::Severity severity, klartext::DiagnosticCode code,
-                              std::string message);
+/// Makes a finding about a place of a program, up to the end of its first physical line.
 klartext::Diagnostic diagnose(const klartext::Program& program, const klartext::Block& block,
                               klartext::Slice<char> place, klartext::Severity severity,
                               klartext::DiagnosticCode code, std::string message);
+
+/// Adds a finding unless there are too many. @returns it, or null
+klartext::Diagnostic* report(std::vector<klartext::Diagnostic>& diagnostics,
+                             const klartext::Program& program, const klartext::Block& block,
+                             klartext::Slice<char> place, klartext::Severity severity,
+                             klartext::DiagnosticCode code, std::string message);
 
 /// Where a parameter is written in the code of a place: not in comments and texts.
 std::vector<klartext::Slice<char>> places_of(const klartext::Program& program,

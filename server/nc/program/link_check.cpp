@@ -136,11 +136,18 @@ struct Given {
 /// Finds the faults of one block.
 class BlockCheck {
  public:
-  BlockCheck(const klartext::Program& program, const Block& block,
+  BlockCheck(const klartext::Program& program, const Block& block, std::uint32_t index,
              std::vector<klartext::Diagnostic>& diagnostics)
-      : program_(program), block_(block), diagnostics_(diagnostics) {}
+      : program_(program), block_(block), index_(index), diagnostics_(diagnostics) {}
 
-  void check_cycle(const klartext::Cycle& cycle) {
+  void check(const auto&) {}
+  void check(const klartext::MFunctions& functions) { check_words(functions.words); }
+  void check(const klartext::Stop& stop) { check_words(stop.words); }
+  void check(const klartext::CycleCall& call) { check_words(call.words); }
+  void check(const klartext::Assignment& assignment) { check_system_data(assignment.value, false); }
+  void check(const klartext::SystemWrite& write) { check_system_data(write.address, true); }
+
+  void check(const klartext::Cycle& cycle) {
     check_predefined(cycle);
     const BoundCycle bound = bind_cycle(program_, cycle);
     if (bound.probing != nullptr) {
@@ -156,7 +163,8 @@ class BlockCheck {
   }
 
   /// The end that IPA gives must be the one that DR leads to.
-  void check_turn(const klartext::Motion& motion) {
+  void check(const klartext::Motion& motion) {
+    check_words(motion.words);
     for (const klartext::Word& word : program_.view(motion.words)) {
       const auto* angle = std::get_if<double>(&word.value);
       if (motion.path != klartext::Path::Cp || word.letter != klartext::Letter::Pa ||
@@ -188,14 +196,11 @@ class BlockCheck {
                        lacks_index && index ? fmt::format(" IDX{}", *index) : ""));
   }
 
-  void check_part(std::uint32_t index) {
-    const auto& part = std::get<CyclePart>(block_.statement);
+  void check(const CyclePart& part) {
     const auto line = [&](int number) {
-      return fmt::format("{} {}.{}",
-                         part.family == klartext::CycleFamily::TchProbe ? "TCH PROBE" : "CYCL DEF",
-                         part.number, number);
+      return fmt::format("{} {}.{}", words_of(part.family), part.number, number);
     };
-    const auto before = neighbour(program_, index, -1);
+    const auto before = neighbour(program_, index_, -1);
     if (part.part != 0 && !before) {
       return report(Severity::Error, DiagnosticCode::CycleParameterInvalid, block_.written,
                     fmt::format("CYCL incomplete: {} stands without {} directly before it",
@@ -210,7 +215,7 @@ class BlockCheck {
     if (part.part != 0) return check_repeated(part, before);
     if (!is_available(part.family, part.number, true)) {
       warn_unavailable(part.family, part.number);
-    } else if (!neighbour(program_, index, 1)) {
+    } else if (!neighbour(program_, index_, 1)) {
       report(Severity::Warning, DiagnosticCode::OrderContradicts, block_.written,
              fmt::format("{} is missing after {}", line(1), line(0)));
     }
@@ -271,8 +276,7 @@ class BlockCheck {
 
   void report(Severity severity, DiagnosticCode code, klartext::Slice<char> place,
               std::string message) {
-    if (diagnostics_.size() >= kMostFindings) return;
-    diagnostics_.push_back(diagnose(program_, block_, place, severity, code, std::move(message)));
+    interpreter::report(diagnostics_, program_, block_, place, severity, code, std::move(message));
   }
 
   void warn_unavailable(klartext::CycleFamily family, int number) {
@@ -388,6 +392,7 @@ class BlockCheck {
 
   const klartext::Program& program_;
   const Block& block_;
+  const std::uint32_t index_;
   std::vector<klartext::Diagnostic>& diagnostics_;
 };
 
@@ -443,25 +448,8 @@ void check_system_needs(const klartext::Program& program,
 void check_block(const klartext::Program& program, std::uint32_t index,
                  std::vector<klartext::Diagnostic>& diagnostics) {
   const Block& block = program.blocks()[index];
-  BlockCheck check(program, block, diagnostics);
-  if (const auto* cycle = std::get_if<klartext::Cycle>(&block.statement)) {
-    check.check_cycle(*cycle);
-  } else if (std::holds_alternative<CyclePart>(block.statement)) {
-    check.check_part(index);
-  } else if (const auto* motion = std::get_if<klartext::Motion>(&block.statement)) {
-    check.check_words(motion->words);
-    check.check_turn(*motion);
-  } else if (const auto* functions = std::get_if<klartext::MFunctions>(&block.statement)) {
-    check.check_words(functions->words);
-  } else if (const auto* stop = std::get_if<klartext::Stop>(&block.statement)) {
-    check.check_words(stop->words);
-  } else if (const auto* call = std::get_if<klartext::CycleCall>(&block.statement)) {
-    check.check_words(call->words);
-  } else if (const auto* assignment = std::get_if<klartext::Assignment>(&block.statement)) {
-    check.check_system_data(assignment->value, false);
-  } else if (const auto* write = std::get_if<klartext::SystemWrite>(&block.statement)) {
-    check.check_system_data(write->address, true);
-  }
+  BlockCheck check(program, block, index, diagnostics);
+  std::visit([&](const auto& statement) { check.check(statement); }, block.statement);
 }
 
 }  // namespace fitgauge::interpreter

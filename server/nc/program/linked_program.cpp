@@ -22,12 +22,12 @@ std::optional<std::uint32_t> LinkedProgram::instruction_of(std::uint32_t block_n
   return static_cast<std::uint32_t>(first - parts_.block_of.begin());
 }
 
-std::optional<std::uint32_t> LinkedProgram::label(std::uint32_t number) const {
-  return lookup(parts_.numbered_labels, number);
+std::optional<std::uint32_t> LinkedParts::label(std::uint32_t number) const {
+  return lookup(numbered_labels, number);
 }
 
-std::optional<std::uint32_t> LinkedProgram::label(std::string_view name) const {
-  return lookup(parts_.named_labels, ascii_upper(name));
+std::optional<std::uint32_t> LinkedParts::label(std::string_view name) const {
+  return lookup(named_labels, ascii_upper(name));
 }
 
 }  // namespace fitgauge::interpreter

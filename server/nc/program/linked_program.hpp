@@ -24,6 +24,10 @@ struct LinkedParts {
   std::uint32_t temporaries = 0;        ///< cells after the counters
   std::unordered_map<std::string, std::uint32_t> named_labels;  ///< upper-case name, instruction
   std::unordered_map<std::uint32_t, std::uint32_t> numbered_labels;
+
+  /// The instruction after a label, or nothing.
+  std::optional<std::uint32_t> label(std::uint32_t number) const;
+  std::optional<std::uint32_t> label(std::string_view name) const;
 };
 
 /// A program with labels, cycles and jumps resolved and its formulas lowered to flat code.
@@ -53,9 +57,8 @@ class LinkedProgram {
   /// no block has the number.
   std::optional<std::uint32_t> instruction_of(std::uint32_t block_number) const;
 
-  /// The instruction after a label, or nothing.
-  std::optional<std::uint32_t> label(std::uint32_t number) const;
-  std::optional<std::uint32_t> label(std::string_view name) const;
+  /// As LinkedParts::label.
+  std::optional<std::uint32_t> label(auto label) const { return parts_.label(label); }
 
  private:
   ControlPath path_;

@@ -2,7 +2,7 @@
 
 #include "base/text.hpp"
 #include "nc/program/arithmetic.hpp"
-#include "nc/program/contradictions.hpp"
+#include "nc/program/check.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/link_check.hpp"
 #include "nc/program/lowering.hpp"
@@ -70,8 +70,8 @@ class Linker {
   };
 
   void report(Severity severity, DiagnosticCode code, const Block& block, std::string message) {
-    if (file_.diagnostics.size() >= kMostFindings) return;
-    file_.diagnostics.push_back(diagnose(program_, block, severity, code, std::move(message)));
+    interpreter::report(file_.diagnostics, program_, block, block.written, severity, code,
+                        std::move(message));
   }
 
   std::string shown(const Label& label) const {
@@ -219,12 +219,9 @@ class Linker {
   }
 
   std::optional<std::uint32_t> resolve(const Label& label) const {
-    if (const auto* number = std::get_if<std::uint32_t>(&label)) {
-      const auto it = parts_.numbered_labels.find(*number);
-      return it == parts_.numbered_labels.end() ? std::nullopt : std::optional(it->second);
-    }
-    const auto it = parts_.named_labels.find(ascii_upper(program_.text(std::get<Text>(label))));
-    return it == parts_.named_labels.end() ? std::nullopt : std::optional(it->second);
+    const auto* number = std::get_if<std::uint32_t>(&label);
+    return number != nullptr ? parts_.label(*number)
+                             : parts_.label(program_.text(std::get<Text>(label)));
   }
 
   void resolve_jumps() {
@@ -261,9 +258,9 @@ class Linker {
   void add_reference(FileReference::Kind kind, const Expr& path, const Block& block) {
     const auto* text = std::get_if<Text>(&path);
     if (text == nullptr || file_.references.size() == kMostReferences) return;
-    file_.references.push_back(
-        {kind, std::string(program_.text(*text)),
-         diagnose(program_, block, Severity::Warning, DiagnosticCode::FileMissing, {})});
+    file_.references.push_back({kind, std::string(program_.text(*text)),
+                                diagnose(program_, block, block.written, Severity::Warning,
+                                         DiagnosticCode::FileMissing, {})});
   }
 
   std::string_view path_of(const Expr& path) const {
@@ -354,27 +351,20 @@ std::size_t memory_of(const LinkedParts& parts) {
 LinkedFile link(klartext::ParsedProgram parsed, const ControlPath& path) {
   LinkedFile file;
   file.diagnostics = std::move(parsed.diagnostics);
-  if (std::any_of(file.diagnostics.begin(), file.diagnostics.end(), [](const auto& diagnostic) {
-        return diagnostic.code == DiagnosticCode::ProgramTooLarge;
-      })) {
+  if (std::ranges::count(file.diagnostics, DiagnosticCode::ProgramTooLarge,
+                         &klartext::Diagnostic::code) > 0) {
     return file;
   }
   LinkedParts parts = Linker(parsed.program, file).link();
   check_system_needs(parsed.program, file.diagnostics);
   check_contradictions(parsed.program, file.diagnostics);
-  std::stable_sort(file.diagnostics.begin(), file.diagnostics.end(),
-                   [](const auto& a, const auto& b) { return a.range.begin < b.range.begin; });
+  std::ranges::stable_sort(file.diagnostics, {},
+                           [](const auto& found) { return found.range.begin; });
   file.memory_bytes = parsed.program.parts().memory_bytes() + memory_of(parts);
-  const auto has_error = [&](bool tolerant) {
-    return std::any_of(
-        file.diagnostics.begin(), file.diagnostics.end(), [tolerant](const auto& diagnostic) {
-          return diagnostic.severity == Severity::Error && !(tolerant && diagnostic.is_unreadable);
-        });
-  };
-  if (has_error(true)) return file;
+  if (has_errors(file.diagnostics, true)) return file;
   file.with_error_blocks =
       std::make_shared<const LinkedProgram>(path, std::move(parsed.program), std::move(parts));
-  if (!has_error(false)) file.program = file.with_error_blocks;
+  if (!has_errors(file.diagnostics)) file.program = file.with_error_blocks;
   return file;
 }
 
