@@ -40,7 +40,7 @@ bool names(std::string_view tags, const Matches& matches) {
 }
 
 bool is_token(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) {
     return is_ascii_alphanumeric(c) ||
            std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos;
   });
@@ -192,7 +192,7 @@ bool is_packable(std::string_view content_type) {
   constexpr std::array<std::string_view, 6> kTypes{"application/json", "application/x-ndjson",
                                                    "text/csv",         "text/html",
                                                    "text/css",         "text/javascript"};
-  return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end() || type.ends_with("+json") ||
+  return std::ranges::find(kTypes, type) != kTypes.end() || type.ends_with("+json") ||
          type.ends_with("/xml") || type.ends_with("+xml");
 }
 

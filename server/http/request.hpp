@@ -28,8 +28,7 @@ struct Peer {
   bool health_only = false;  ///< came by the listener for the service's own health check
 };
 
-/// The value of a parameter after parsing: text and words as text, decimals as the integer
-/// value times 10^scale.
+/// A parsed parameter: text and words as text, decimals as the integer value times 10^scale.
 using ArgumentValue = std::variant<std::string_view, std::int64_t, Length, Timestamp>;
 
 /// One request whose route is found and whose parameters are checked. Its views point to a head
@@ -58,14 +57,12 @@ class Request {
   std::optional<Length> length(std::string_view name) const;
   std::optional<Timestamp> time(std::string_view name) const;
 
-  /// Returns the decoded body; empty if there is none. kBodyPadding bytes after its end are
-  /// readable.
+  /// The decoded body, or empty. kBodyPadding bytes after its end are readable.
   std::string_view body() const { return body_.text; }
   /// Returns the decoded body; on disk if its route spools.
   const FileText& file_body() const { return body_; }
   static constexpr std::size_t kBodyPadding = 64;
-  /// Returns the body's media type in lower case without parameters; empty if the request names
-  /// none.
+  /// The body's media type in lower case without parameters; empty if none is named.
   std::string_view media_type() const { return media_type_; }
   /// Returns the media type, of those of the route's responses, that the client prefers.
   std::string_view response_type() const { return response_type_; }
@@ -76,8 +73,7 @@ class Request {
 
   /// Returns an id that is unique in this process and probably elsewhere.
   std::uint64_t id() const { return id_; }
-  /// Returns the client's X-Request-Id if it has 1 to 64 characters of `[A-Za-z0-9._-]`, or id() as
-  /// 16 hexadecimal digits.
+  /// X-Request-Id if it is 1 to 64 of `[A-Za-z0-9._-]`, or id() as 16 hexadecimal digits.
   std::string_view id_text() const {
     return given_id_.empty() ? std::string_view(own_id_.data(), own_id_.size()) : given_id_;
   }

@@ -84,8 +84,7 @@ class ChunkSink {
   ChunkSink& operator=(ChunkSink&&) noexcept;
   ~ChunkSink();
 
-  /// Sends `bytes` (an empty piece is skipped) and asks the stream for the next piece once they
-  /// have left for the socket.
+  /// Sends `bytes` unless empty, and asks the stream for the next piece when they have left.
   void put(std::string bytes);
 
   /// Sends `bytes` and ends the body.
@@ -110,8 +109,7 @@ class BodyStream {
   /// thread. Pieces of 16 to 64 KiB serve best.
   virtual void next(ChunkSink sink) = 0;
 
-  /// Called on the I/O thread after each StreamedBody::heartbeat_interval while the sink of next()
-  /// waits: must not block.
+  /// Called on the I/O thread after each heartbeat_interval while a sink waits: must not block.
   virtual void idle() {}
 
   /// Called on the I/O thread when the connection is closed: next() is not called again and data
@@ -139,7 +137,7 @@ class Responder {
   std::shared_ptr<Connection> connection_;
 };
 
-class Posts;
+class IoThread;
 
 /// Collects the responses of its thread for I/O threads, and posts them at the end, to each thread
 /// at once. Use it in a thread that answers many requests together, because each single response
@@ -152,7 +150,11 @@ class AnswerBatch {
   ~AnswerBatch();
 
  private:
-  std::unique_ptr<Posts> posts_;
+  friend class Connection;
+  void add(IoThread& thread, std::function<void()> function);
+
+  /// As few as there are I/O threads.
+  std::vector<std::pair<IoThread*, std::vector<std::function<void()>>>> threads_;
 };
 
 }  // namespace fitgauge::http

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "http/request.hpp"
 #include "http/response.hpp"
 
@@ -19,8 +18,7 @@ struct Integer {
   std::int64_t min = std::numeric_limits<std::int64_t>::min();
   std::int64_t max = std::numeric_limits<std::int64_t>::max();
 };
-/// A decimal number, read as value times 10^scale; a decimal comma is accepted. The range is in
-/// scaled integers.
+/// A decimal number or with a comma, read as value times 10^scale; so is the range.
 struct Decimal {
   int scale = 6;
   std::int64_t min = std::numeric_limits<std::int64_t>::min();

@@ -11,12 +11,9 @@
 #include "http/engine/transports.hpp"
 
 namespace fitgauge::http {
-namespace {
-
 using TlsContext = std::shared_ptr<asio::ssl::context>;
 
-/// A connected socket for another I/O thread: Asio's socket object belongs to one thread, so only
-/// the descriptor is passed. Owns it.
+/// A connected socket on its way to another I/O thread, as a descriptor that it owns.
 class SocketInTransit {
  public:
   explicit SocketInTransit(Socket socket)
@@ -46,23 +43,120 @@ class SocketInTransit {
   int descriptor_;
 };
 
-}  // namespace
-
 class Server::Impl {
  public:
   Impl(ServerOptions options, RouteTable routes, ServerHooks hooks)
       : shared_(std::move(options), std::move(routes), std::move(hooks)) {}
-  ~Impl();
+  ~Impl() { stop(); }
 
-  Result<void> open();
-  void stop();
-  Result<void> reload_tls();
-  ServerCounters counters() const;
+  Result<void> open() {
+    if (shared_.options.tls) tls_ = TRY(load_tls(*shared_.options.tls));
+    std::random_device random;
+    std::vector<IoThread*> threads;
+    for (unsigned i = 0; i < std::max(1U, shared_.options.io_threads); ++i) {
+      const std::uint64_t first_id = (std::uint64_t{random()} << 32) | random();
+      threads_.push_back(std::make_unique<IoThread>(shared_, first_id));
+      threads.push_back(threads_.back().get());
+    }
+    for (const ListenAddress& address : shared_.options.listen) {
+      auto listener =
+          Listener::open(address, threads, [this](IoThread& thread, Socket socket, Peer peer) {
+            take(thread, std::move(socket), std::move(peer));
+          });
+      if (!listener) return std::move(listener).error();
+      ports_.push_back((*listener)->port());
+      listeners_.push_back(std::move(*listener));
+    }
+    for (const auto& listener : listeners_) listener->start();
+    for (const auto& thread : threads_) thread->start();
+    return {};
+  }
+
+  /// After it returns, no I/O thread calls a handler, a hook or a stream.
+  void stop() {
+    if (shared_.stopping.exchange(true) || threads_.empty()) return;
+    // Each thread keeps a place until it has notified its connections, the first until all have.
+    threads_.front()->post([this, first = Place(shared_.connections)] {
+      for (const auto& listener : listeners_) listener->close();
+      // Deals the sockets that are already accepted: later posts follow them.
+      for (const auto& thread : threads_) {
+        thread->post([&each = *thread, place = Place(shared_.connections)] { each.drain(); });
+      }
+    });
+    shared_.connections.wait_until_empty(shared_.options.drain_timeout);
+    for (const auto& thread : threads_) thread->join();
+  }
+
+  Result<void> reload_tls() {
+    if (!shared_.options.tls) return {};
+    auto context = TRY(load_tls(*shared_.options.tls));
+    const std::lock_guard lock(tls_mutex_);
+    tls_ = std::move(context);
+    return {};
+  }
+
+  ServerCounters counters() const {
+    ServerCounters counters{.connections_open = shared_.connections.inside(),
+                            .connections_refused = refused_.load(std::memory_order_relaxed),
+                            .body_bytes_in_flight = shared_.budgets.used()};
+    for (const auto& thread : threads_) counters.requests += thread->requests();
+    return counters;
+  }
+
   const std::vector<std::uint16_t>& ports() const { return ports_; }
 
  private:
-  void take(IoThread& thread, Socket socket, Peer peer);
-  void turn_away(Socket socket, const Peer& peer);
+  void take(IoThread& thread, Socket socket, Peer peer) {
+    if (shared_.connections.inside() >= shared_.options.max_connections) {
+      refused_.fetch_add(1, std::memory_order_relaxed);
+      return turn_away(std::move(socket), peer);
+    }
+    // Counted from here: its thread may be busy, and more connections arrive.
+    Place place(shared_.connections);
+    TlsContext tls;
+    if (shared_.options.tls && !peer.health_only) {
+      peer.tls = true;
+      const std::lock_guard lock(tls_mutex_);
+      tls = tls_;
+    }
+    thread.post([&thread, place = std::move(place), transit = SocketInTransit(std::move(socket)),
+                 peer = std::move(peer), tls = std::move(tls)]() mutable {
+      if (thread.shared().stopping) return;
+      Socket arrived = transit.arrive(thread.context());
+      std::shared_ptr<Connection> connection;
+      if (tls) {
+        connection = std::make_shared<TlsConnection>(thread, std::move(peer), std::move(arrived),
+                                                     std::move(tls));
+      } else {
+        connection = std::make_shared<PlainConnection>(thread, std::move(peer), std::move(arrived));
+      }
+      thread.add(connection, std::move(place));
+      connection->start();
+    });
+  }
+
+  /// The largest number of connections is open: responds without reading a request, if no handshake
+  /// is needed. On the first I/O thread.
+  void turn_away(Socket socket, const Peer& peer) {
+    if (shared_.options.tls) return;
+    IoThread& thread = *threads_.front();
+    RequestHead nothing_read;
+    Exchange exchange(shared_.routes, shared_.hooks, shared_.options.allowed_origins, peer);
+    Response response =
+        exchange.refuse(nothing_read, thread.next_request_id(),
+                        {503, ErrorCode::Overloaded,
+                         "too many connections are open: close one, or try again soon"});
+    std::string text;
+    OutputQueue out(text);
+    append_answer(out, response, exchange.form(false), thread.date());
+    error_code ignored;
+    socket.non_blocking(true, ignored);
+    socket.write_some(asio::buffer(text), ignored);
+    socket.shutdown(Socket::shutdown_send, ignored);
+    // Unread bytes would turn the close into a reset, which can overtake the answer.
+    std::array<char, 4096> unread;
+    socket.read_some(asio::buffer(unread), ignored);
+  }
 
   ServerShared shared_;
   std::vector<std::unique_ptr<IoThread>> threads_;
@@ -70,119 +164,8 @@ class Server::Impl {
   std::vector<std::uint16_t> ports_;
   std::mutex tls_mutex_;
   TlsContext tls_;
-  std::atomic<std::uint64_t> accepted_{0};
   std::atomic<std::uint64_t> refused_{0};
 };
-
-Server::Impl::~Impl() { stop(); }
-
-Result<void> Server::Impl::open() {
-  if (shared_.options.tls) tls_ = TRY(load_tls(*shared_.options.tls));
-  std::random_device random;
-  std::vector<IoThread*> threads;
-  for (unsigned i = 0; i < std::max(1U, shared_.options.io_threads); ++i) {
-    const std::uint64_t first_id = (std::uint64_t{random()} << 32) | random();
-    threads_.push_back(std::make_unique<IoThread>(shared_, first_id));
-    threads.push_back(threads_.back().get());
-  }
-  for (const ListenAddress& address : shared_.options.listen) {
-    auto listener =
-        Listener::open(address, threads, [this](IoThread& thread, Socket socket, Peer peer) {
-          take(thread, std::move(socket), std::move(peer));
-        });
-    if (!listener) return std::move(listener).error();
-    ports_.push_back((*listener)->port());
-    listeners_.push_back(std::move(*listener));
-  }
-  for (const auto& listener : listeners_) listener->start();
-  for (const auto& thread : threads_) thread->start();
-  return {};
-}
-
-void Server::Impl::take(IoThread& thread, Socket socket, Peer peer) {
-  accepted_.fetch_add(1, std::memory_order_relaxed);
-  if (shared_.connections.inside() >= shared_.options.max_connections) {
-    refused_.fetch_add(1, std::memory_order_relaxed);
-    return turn_away(std::move(socket), peer);
-  }
-  // Counted from here: its thread may be busy, and more connections arrive.
-  Place place(shared_.connections);
-  TlsContext tls;
-  if (shared_.options.tls && !peer.health_only) {
-    peer.tls = true;
-    const std::lock_guard lock(tls_mutex_);
-    tls = tls_;
-  }
-  thread.post([&thread, place = std::move(place), transit = SocketInTransit(std::move(socket)),
-               peer = std::move(peer), tls = std::move(tls)]() mutable {
-    if (thread.shared().stopping) return;
-    Socket arrived = transit.arrive(thread.context());
-    std::shared_ptr<Connection> connection;
-    if (tls) {
-      connection = std::make_shared<TlsConnection>(thread, std::move(peer), std::move(arrived),
-                                                   std::move(tls));
-    } else {
-      connection = std::make_shared<PlainConnection>(thread, std::move(peer), std::move(arrived));
-    }
-    thread.add(connection, std::move(place));
-    connection->start();
-  });
-}
-
-/// The largest number of connections is open: responds without reading a request, if no handshake
-/// is needed. On the first I/O thread.
-void Server::Impl::turn_away(Socket socket, const Peer& peer) {
-  if (shared_.options.tls) return;
-  IoThread& thread = *threads_.front();
-  RequestHead nothing_read;
-  Exchange exchange(shared_.routes, shared_.hooks, shared_.options.allowed_origins, peer);
-  Response response = exchange.refuse(
-      nothing_read, thread.next_request_id(),
-      {503, ErrorCode::Overloaded, "too many connections are open: close one, or try again soon"});
-  std::string text;
-  OutputQueue out(text);
-  append_answer(out, response, exchange.form(false), thread.date());
-  error_code ignored;
-  socket.non_blocking(true, ignored);
-  socket.write_some(asio::buffer(text), ignored);
-  socket.shutdown(Socket::shutdown_send, ignored);
-  // Unread bytes would turn the close into a reset, which can overtake the answer.
-  std::array<char, 4096> unread;
-  socket.read_some(asio::buffer(unread), ignored);
-}
-
-Result<void> Server::Impl::reload_tls() {
-  if (!shared_.options.tls) return {};
-  auto context = TRY(load_tls(*shared_.options.tls));
-  const std::lock_guard lock(tls_mutex_);
-  tls_ = std::move(context);
-  return {};
-}
-
-ServerCounters Server::Impl::counters() const {
-  ServerCounters counters{.connections_accepted = accepted_.load(std::memory_order_relaxed),
-                          .connections_open = shared_.connections.inside(),
-                          .connections_refused = refused_.load(std::memory_order_relaxed),
-                          .body_bytes_in_flight = shared_.budgets.used()};
-  for (const auto& thread : threads_) counters.requests += thread->requests();
-  return counters;
-}
-
-/// After it returns, no I/O thread calls a handler, a hook or a stream.
-void Server::Impl::stop() {
-  if (shared_.stopping.exchange(true) || threads_.empty()) return;
-  // Each thread keeps a place until it has notified its connections, the first until all are
-  // notified.
-  threads_.front()->post([this, first = Place(shared_.connections)] {
-    for (const auto& listener : listeners_) listener->close();
-    // Deals the sockets that are already accepted: later posts follow them.
-    for (const auto& thread : threads_) {
-      thread->post([&each = *thread, place = Place(shared_.connections)] { each.drain(); });
-    }
-  });
-  shared_.connections.wait_until_empty(shared_.options.drain_timeout);
-  for (const auto& thread : threads_) thread->join();
-}
 
 Result<void> check_tls(const TlsOptions& options) {
   TRY(load_tls(options));
@@ -192,8 +175,7 @@ Result<void> check_tls(const TlsOptions& options) {
 Result<std::unique_ptr<Server>> Server::start(ServerOptions options, RouteTable routes,
                                               ServerHooks hooks) {
   auto impl = std::make_unique<Impl>(std::move(options), std::move(routes), std::move(hooks));
-  const Result<void> opened = impl->open();
-  if (!opened) return opened.error();
+  TRY(impl->open());
   return std::unique_ptr<Server>(new Server(std::move(impl)));
 }
 

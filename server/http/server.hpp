@@ -1,8 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
-#include "http/request.hpp"
-#include "http/response.hpp"
 #include "http/route.hpp"
 
 namespace fitgauge::http {
@@ -10,13 +7,11 @@ namespace fitgauge::http {
 struct ListenAddress {
   std::string host;  ///< a numeric address: `127.0.0.1`, `::1`, `0.0.0.0`
   std::uint16_t port = 0;
-  /// Without TLS, for health checks on this machine: the guard allows only the health routes
-  /// (Request::is_health_only).
+  /// Without TLS, for health checks on this machine: the guard allows only health routes.
   bool health_only = false;
 
   bool is_loopback() const;
-  /// Returns the address that reaches it on this machine: `127.0.0.1:8286` for 0.0.0.0,
-  /// `[::1]:8286` for ::.
+  /// The address to reach it here: `127.0.0.1:8286` for 0.0.0.0, `[::1]:8286` for ::.
   std::string own_address() const;
 };
 
@@ -86,20 +81,16 @@ struct ServerHooks {
   /// code of the handler's or guard's error decides. Without this hook: plain text.
   std::function<Response(const Error& error, std::optional<int> status, const Request& request)>
       format_error{};
-  /// Runs on the head, before parameters and body are read. If it returns a response or error, that
-  /// is the answer.
+  /// Runs before parameters and body are read. A response or an error is the answer.
   std::function<Result<std::optional<Response>>(Request& request, const Route& route)> guard{};
-  /// Asked a few times a second while a streamed body is sent: false ends the body, because the
-  /// caller may not read on.
+  /// Asked a few times a second while a body streams: false ends it; the caller may not read on.
   std::function<bool(const Request&)> may_continue{};
   std::function<void(const FinishedRequest&)> finished{};
-  /// Reports that a handler threw: `what` is the exception's text. The client got 500 with the
-  /// request's id.
+  /// Reports the text of a handler's exception. The client got 500 with the request's id.
   std::function<void(const Request&, std::string_view what)> handler_threw{};
 };
 
 struct ServerCounters {
-  std::uint64_t connections_accepted = 0;
   std::uint64_t connections_open = 0;
   std::uint64_t connections_refused = 0;  ///< beyond max_connections
   std::uint64_t requests = 0;

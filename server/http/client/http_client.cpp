@@ -24,32 +24,30 @@ std::optional<std::chrono::seconds> retry_after(std::string_view line) {
 namespace fitgauge::http_client {
 namespace {
 
-struct Network4 {
-  std::uint32_t first;
-  int bits;
-};
-
-constexpr Network4 kPrivate4[] = {
-    {0x00000000, 8},   // this network
-    {0x0A000000, 8},   // private
-    {0x64400000, 10},  // shared between providers
-    {0x7F000000, 8},   // loopback
-    {0xA9FE0000, 16},  // link-local
-    {0xAC100000, 12},  // private
-    {0xC0000000, 24},  // protocols
-    {0xC0A80000, 16},  // private
-    {0xC6120000, 15},  // benchmarks
-    {0xE0000000, 3},   // multicast, reserved, broadcast
-};
-
 using Address6 = std::array<std::uint8_t, 16>;
 
-struct Network6 {
+struct Network {
   Address6 first;
   int bits;
 };
 
-constexpr Network6 kPrivate6[] = {
+constexpr Address6 mapped(std::uint32_t address) {
+  Address6 bytes{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF};
+  for (std::size_t i = 16; i-- > 12; address >>= 8) bytes[i] = static_cast<std::uint8_t>(address);
+  return bytes;
+}
+
+constexpr Network kPrivate[] = {
+    {mapped(0x00000000), 96 + 8},                // this network
+    {mapped(0x0A000000), 96 + 8},                // private
+    {mapped(0x64400000), 96 + 10},               // shared between providers
+    {mapped(0x7F000000), 96 + 8},                // loopback
+    {mapped(0xA9FE0000), 96 + 16},               // link-local
+    {mapped(0xAC100000), 96 + 12},               // private
+    {mapped(0xC0000000), 96 + 24},               // protocols
+    {mapped(0xC0A80000), 96 + 16},               // private
+    {mapped(0xC6120000), 96 + 15},               // benchmarks
+    {mapped(0xE0000000), 96 + 3},                // multicast, reserved, broadcast
     {{0xFC}, 7},                                 // unique local
     {{0xFE, 0x80}, 10},                          // link-local
     {{0xFE, 0xC0}, 10},                          // site-local, deprecated
@@ -59,24 +57,17 @@ constexpr Network6 kPrivate6[] = {
 };
 
 struct Embedded4 {
-  Network6 network;
+  Network network;
   std::size_t offset;  ///< of the address of IPv4
 };
 
 constexpr Embedded4 kEmbedded4[] = {
-    {{{}, 96}, 12},                                          // ::, ::1 and ::a.b.c.d
-    {{{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF}, 96}, 12},  // mapped
-    {{{0x00, 0x64, 0xFF, 0x9B}, 96}, 12},                    // translated
-    {{{0x20, 0x02}, 16}, 2},                                 // 6to4
+    {{{}, 96}, 12},                        // ::, ::1 and ::a.b.c.d
+    {{{0x00, 0x64, 0xFF, 0x9B}, 96}, 12},  // translated
+    {{{0x20, 0x02}, 16}, 2},               // 6to4
 };
 
-bool is_private4(std::uint32_t address) {
-  return std::any_of(std::begin(kPrivate4), std::end(kPrivate4), [&](const Network4& network) {
-    return (address ^ network.first) >> (32 - network.bits) == 0;
-  });
-}
-
-bool is_in(const Address6& address, const Network6& network) {
+bool is_in(const Address6& address, const Network& network) {
   for (int bit = 0; bit < network.bits; ++bit) {
     const auto byte = static_cast<std::size_t>(bit / 8);
     const int mask = 0x80 >> bit % 8;
@@ -85,16 +76,14 @@ bool is_in(const Address6& address, const Network6& network) {
   return true;
 }
 
-bool is_private6(const Address6& address) {
-  const bool is_listed =
-      std::any_of(std::begin(kPrivate6), std::end(kPrivate6),
-                  [&](const Network6& network) { return is_in(address, network); });
-  if (is_listed) return true;
+bool is_private(const Address6& address) {
+  const auto has = [&address](const Network& network) { return is_in(address, network); };
+  if (std::ranges::any_of(kPrivate, has)) return true;
   for (const Embedded4& embedded : kEmbedded4) {
-    if (!is_in(address, embedded.network)) continue;
+    if (!has(embedded.network)) continue;
     std::uint32_t inner = 0;
     for (std::size_t i = 0; i < 4; ++i) inner = inner << 8 | address.at(embedded.offset + i);
-    return is_private4(inner);
+    return is_private(mapped(inner));
   }
   return false;
 }
@@ -135,55 +124,23 @@ std::size_t CurlHandle::take_header(char* data, std::size_t, std::size_t size, v
   return size;
 }
 
-long CurlHandle::status() const {
-  long status = 0;
-  curl_easy_getinfo(curl_, CURLINFO_RESPONSE_CODE, &status);
-  return status;
-}
-
-std::string CurlHandle::content_type() const {
-  const char* type = nullptr;
-  curl_easy_getinfo(curl_, CURLINFO_CONTENT_TYPE, &type);
-  return type == nullptr ? "" : type;
-}
-
-std::string CurlHandle::reason(CURLcode code) const {
-  return error_.front() == '\0' ? curl_easy_strerror(code) : error_.data();
-}
-
 bool is_private_address(const sockaddr& address) {
   if (address.sa_family == AF_INET) {
     sockaddr_in v4;
     std::memcpy(&v4, &address, sizeof v4);
-    return is_private4(ntohl(v4.sin_addr.s_addr));
+    return is_private(mapped(ntohl(v4.sin_addr.s_addr)));
   }
   if (address.sa_family != AF_INET6) return true;
   sockaddr_in6 v6;
   std::memcpy(&v6, &address, sizeof v6);
   Address6 bytes;
   std::memcpy(bytes.data(), &v6.sin6_addr, bytes.size());
-  return is_private6(bytes);
+  return is_private(bytes);
 }
-
-/// Checks of an address.
-struct AddressGate {
-  bool may_reach_private = false;
-  bool has_refused = false;
-};
 
 namespace {
 
 constexpr long kConnectSeconds = 10;
-
-/// The resolved address counts, not the name: a name may change its mind between two looks.
-curl_socket_t open_socket(void* user, curlsocktype, curl_sockaddr* address) {
-  auto& gate = *static_cast<AddressGate*>(user);
-  if (!gate.may_reach_private && is_private_address(address->addr)) {
-    gate.has_refused = true;
-    return CURL_SOCKET_BAD;
-  }
-  return socket(address->family, address->socktype | SOCK_CLOEXEC, address->protocol);
-}
 
 struct TakenBody {
   std::string& text;
@@ -204,18 +161,18 @@ int look_around(void* user, curl_off_t, curl_off_t, curl_off_t, curl_off_t) {
 
 }  // namespace
 
-struct HttpClient::Handle : CurlHandle {
-  AddressGate gate{};
-};
-
-HttpClient::HttpClient(HttpClientOptions options)
-    : options_(std::move(options)), handle_(std::make_unique<Handle>()) {
-  handle_->gate.may_reach_private = options_.may_reach_private;
+/// The resolved address counts, not the name: a name may change its mind between two looks.
+curl_socket_t HttpClient::open_socket(void* client, curlsocktype, curl_sockaddr* address) {
+  auto& self = *static_cast<HttpClient*>(client);
+  if (!self.options_.may_reach_private && is_private_address(address->addr)) {
+    self.has_refused_ = true;
+    return CURL_SOCKET_BAD;
+  }
+  return socket(address->family, address->socktype | SOCK_CLOEXEC, address->protocol);
 }
-HttpClient::~HttpClient() = default;
 
 HttpAnswer HttpClient::call(const HttpCall& call, const std::function<bool()>& goes_on) {
-  Handle& handle = *handle_;
+  CurlHandle& handle = handle_;
   HttpAnswer answer;
   TakenBody body{.text = answer.body, .longest = call.longest_answer};
   handle.begin(call.url, call.method, call.headers, call.body);
@@ -235,13 +192,13 @@ HttpAnswer HttpClient::call(const HttpCall& call, const std::function<bool()>& g
   handle.set(CURLOPT_CONNECTTIMEOUT, kConnectSeconds);
   handle.set(CURLOPT_TIMEOUT, static_cast<long>(call.timeout.count()));
   handle.set(CURLOPT_OPENSOCKETFUNCTION, &open_socket);
-  handle.set(CURLOPT_OPENSOCKETDATA, &handle.gate);
+  handle.set(CURLOPT_OPENSOCKETDATA, this);
   handle.set(CURLOPT_NOPROGRESS, 0L);
   handle.set(CURLOPT_XFERINFOFUNCTION, &look_around);
   handle.set(CURLOPT_XFERINFODATA, &goes_on);
   handle.set(CURLOPT_WRITEFUNCTION, &take_body);
   handle.set(CURLOPT_WRITEDATA, &body);
-  handle.gate.has_refused = false;
+  has_refused_ = false;
 
   const CURLcode code = handle.perform();
   answer.retry_after = handle.retry_after();
@@ -250,7 +207,7 @@ HttpAnswer HttpClient::call(const HttpCall& call, const std::function<bool()>& g
     return answer;
   }
   answer.failure = handle.reason(code);
-  if (handle.gate.has_refused) {
+  if (has_refused_) {
     answer.failure =
         "the address belongs to this machine or a private network: set allow_private_addresses in "
         "the configuration to allow it";

@@ -5,8 +5,7 @@
 
 namespace fitgauge {
 
-/// Returns the wait that a line of an HTTP head requests (RFC 9110, 10.2.3); none for another field
-/// or a date.
+/// The wait that a line of a head requests (RFC 9110, 10.2.3); none for another field or a date.
 std::optional<std::chrono::seconds> retry_after(std::string_view line);
 
 }  // namespace fitgauge
@@ -36,10 +35,21 @@ class CurlHandle {
 
   CURLcode perform() { return curl_easy_perform(curl_); }
 
-  long status() const;  ///< 0 before the answer has begun
-  std::string content_type() const;
+  /// 0 before the answer has begun
+  long status() const {
+    long status = 0;
+    curl_easy_getinfo(curl_, CURLINFO_RESPONSE_CODE, &status);
+    return status;
+  }
+  std::string content_type() const {
+    const char* type = nullptr;
+    curl_easy_getinfo(curl_, CURLINFO_CONTENT_TYPE, &type);
+    return type == nullptr ? "" : type;
+  }
   std::optional<std::chrono::seconds> retry_after() const { return retry_after_; }
-  std::string reason(CURLcode code) const;
+  std::string reason(CURLcode code) const {
+    return error_.front() == '\0' ? curl_easy_strerror(code) : error_.data();
+  }
 
  private:
   static std::size_t take_header(char* data, std::size_t, std::size_t size, void* handle);
@@ -82,17 +92,17 @@ struct HttpAnswer {
 /// certificates. Used by one thread.
 class HttpClient {
  public:
-  explicit HttpClient(HttpClientOptions options);
-  ~HttpClient();
-  HttpClient& operator=(HttpClient&&) = delete;  // neither copied nor moved
+  explicit HttpClient(HttpClientOptions options) : options_(std::move(options)) {}
 
   /// Blocks. @param goes_on called some times a second; false ends the call.
   HttpAnswer call(const HttpCall& call, const std::function<bool()>& goes_on);
 
  private:
-  struct Handle;
+  static curl_socket_t open_socket(void* client, curlsocktype, curl_sockaddr* address);
+
   const HttpClientOptions options_;
-  std::unique_ptr<Handle> handle_;
+  CurlHandle handle_;
+  bool has_refused_ = false;  ///< an address of this call
 };
 
 /// Returns the fault of a text as an address to call; none if it is one.

@@ -1,5 +1,7 @@
 #include "http/engine/answer.hpp"
 
+#include <fmt/chrono.h>
+
 #include "base/gzip.hpp"
 #include "base/text.hpp"
 
@@ -34,8 +36,8 @@ std::string_view reason(int status) {
       {500, "Internal Server Error"},
       {503, "Service Unavailable"},
   }};
-  const auto found = std::find_if(kReasons.begin(), kReasons.end(),
-                                  [&](const auto& entry) { return entry.first == status; });
+  const auto found =
+      std::ranges::find_if(kReasons, [&](const auto& entry) { return entry.first == status; });
   return found == kReasons.end() ? std::string_view{} : found->second;
 }
 
@@ -81,8 +83,7 @@ void end_head(std::string& out, std::string_view vary, const AnswerForm& form) {
   out.append("\r\n");
 }
 
-/// Returns whether to send the gzip form: a long one if the client prefers it, a short one only if
-/// the client refuses the plain form.
+/// Whether to send gzip: a long body if preferred, a short one if the plain form is refused.
 bool takes_packed(const Codings& codings, bool is_long) {
   return codings.gzip > 0 && (codings.identity == 0 || (is_long && codings.prefers_gzip()));
 }
@@ -99,28 +100,27 @@ SentAnswer append_prepared(OutputQueue& out, const std::shared_ptr<const Prepare
                            const AnswerForm& form, const HttpDate& date) {
   std::string& text = out.text();
   const std::size_t start = text.size();
-  const bool packed = answer->is_packable() && takes_packed(form.codings, answer->is_long());
+  const bool packed = answer->is_packable && takes_packed(form.codings, answer->is_long);
   const auto append_head = [&](const PreparedHead& head) {
     text.append(head.text, 0, packed ? head.shared_size : head.text.size());
-    std::copy(date.begin(), date.end(),
-              text.begin() + static_cast<std::ptrdiff_t>(start + head.date_offset));
-    if (packed) append_etag(text, packed_etag(answer->etag()));
+    std::ranges::copy(date, text.begin() + static_cast<std::ptrdiff_t>(start + head.date_offset));
+    if (packed) append_etag(text, packed_etag(answer->etag));
   };
-  if (form.conditional && answer->status() == 200 && !answer->etag().empty() &&
-      names_etag_weakly(form.if_none_match, answer->etag())) {
-    append_head(answer->not_modified_head());
-    end_head(text, answer->vary(), form);
+  if (form.conditional && answer->status == 200 && !answer->etag.empty() &&
+      names_etag_weakly(form.if_none_match, answer->etag)) {
+    append_head(answer->not_modified);
+    end_head(text, answer->vary, form);
     return {.status = 304, .keep_alive = form.keep_alive};
   }
-  append_head(answer->head());
-  const std::string_view body = packed ? answer->packed_body() : answer->body();
+  append_head(answer->head);
+  const std::string_view body = packed ? answer->packed_body() : answer->body;
   if (packed) {
     text.append(kGzipCoded);
     append_content_length(text, body.size());
   }
-  end_head(text, answer->vary(), form);
+  end_head(text, answer->vary, form);
   if (!form.head_only) append_body(out, answer, body);
-  return {.status = answer->status(), .keep_alive = form.keep_alive};
+  return {.status = answer->status, .keep_alive = form.keep_alive};
 }
 
 /// A text in pieces, each of which is packed in a separate turn.
@@ -233,8 +233,7 @@ void pack(Response& response, SentAnswer& sent) {
   response.body = StreamedBody{.source = std::make_shared<TextStream>(owner, body), .held = held};
 }
 
-/// Returns whether the response has a gzip form. Short ones have it for clients that accept only
-/// gzip.
+/// Whether there is a gzip form: of short responses for clients that accept only gzip.
 struct PackedForm {
   bool exists = false;
   bool is_sent = false;
@@ -245,9 +244,7 @@ PackedForm packed_form(Response& response, const AnswerForm& form) {
     return ascii_iequals(header.name, "Content-Encoding");
   };
   if (!may_have_body(response.status) || !is_packable(response.content_type)) return {};
-  if (std::any_of(response.headers.begin(), response.headers.end(), is_coded)) {
-    return {.exists = true};
-  }
+  if (std::ranges::any_of(response.headers, is_coded)) return {.exists = true};
   const bool is_long = std::holds_alternative<StreamedBody>(response.body) ||
                        bytes_of(response.body).second.size() > kPackedFrom;
   const bool is_sent = takes_packed(form.codings, is_long);
@@ -298,37 +295,37 @@ SentAnswer append_answer(OutputQueue& out, Response& response, const AnswerForm&
 }
 
 PreparedResponse::PreparedResponse(const Response& response, std::string packed)
-    : status_(response.status),
-      is_packable_(!packed.empty() || http::is_packable(response.content_type)),
-      is_long_(is_packable_ && body_of(response).size() > kPackedFrom),
-      etag_(response.etag),
-      vary_(vary_of(response, is_long_)),
-      body_(may_have_body(status_) ? body_of(response) : std::string_view{}),
+    : status(response.status),
+      is_packable(!packed.empty() || http::is_packable(response.content_type)),
+      is_long(is_packable && body_of(response).size() > kPackedFrom),
+      etag(response.etag),
+      vary(vary_of(response, is_long)),
+      body(may_have_body(status) ? body_of(response) : std::string_view{}),
       packed_(std::move(packed)) {
   const HttpDate placeholder = format_http_date({});
-  head_.date_offset = append_status(head_.text, status_, placeholder);
-  append_fields(head_.text, response);
-  head_.shared_size = head_.text.size();
-  append_etag(head_.text, etag_);
-  if (may_have_body(status_)) append_content_length(head_.text, body_.size());
-  if (status_ != 200 || etag_.empty()) return;
-  not_modified_.date_offset = append_status(not_modified_.text, 304, placeholder);
-  append_not_modified_fields(not_modified_.text, response);
-  not_modified_.shared_size = not_modified_.text.size();
-  append_etag(not_modified_.text, etag_);
+  head.date_offset = append_status(head.text, status, placeholder);
+  append_fields(head.text, response);
+  head.shared_size = head.text.size();
+  append_etag(head.text, etag);
+  if (may_have_body(status)) append_content_length(head.text, body.size());
+  if (status != 200 || etag.empty()) return;
+  not_modified.date_offset = append_status(not_modified.text, 304, placeholder);
+  append_not_modified_fields(not_modified.text, response);
+  not_modified.shared_size = not_modified.text.size();
+  append_etag(not_modified.text, etag);
 }
 
 std::string_view PreparedResponse::packed_body() const {
   std::call_once(packing_, [this] {
-    if (packed_.empty()) packed_ = gzip(body_);
+    if (packed_.empty()) packed_ = gzip(body);
   });
   return packed_;
 }
 
 std::size_t size_in_memory(const PreparedResponse& answer) {
-  const std::size_t packed = answer.is_long() ? answer.body().size() : 0;  // at most
-  return sizeof answer + answer.head().text.size() + answer.body().size() + packed +
-         answer.not_modified_head().text.size();
+  const std::size_t packed = answer.is_long ? answer.body.size() : 0;  // at most
+  return sizeof answer + answer.head.text.size() + answer.body.size() + packed +
+         answer.not_modified.text.size();
 }
 
 std::shared_ptr<const PreparedResponse> prepare(const Response& response, std::string packed) {
@@ -337,15 +334,9 @@ std::shared_ptr<const PreparedResponse> prepare(const Response& response, std::s
 }
 
 HttpDate format_http_date(Timestamp time) {
-  constexpr std::array<std::string_view, 7> kDays{"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
-  constexpr std::array<std::string_view, 12> kMonths{"Jan", "Feb", "Mar", "Apr", "May", "Jun",
-                                                     "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
-  const CivilTime at = civil_time(time);
+  const std::time_t second = time.nanoseconds / kNanosecondsPerSecond;
   HttpDate date{};
-  fmt::format_to_n(date.data(), date.size(), "{}, {:02} {} {:04} {:02}:{:02}:{:02} GMT",
-                   kDays[static_cast<std::size_t>(at.weekday)], at.day,
-                   kMonths[static_cast<std::size_t>(at.month - 1)], at.year, at.hour, at.minute,
-                   at.second);
+  fmt::format_to_n(date.data(), date.size(), "{:%a, %d %b %Y %H:%M:%S} GMT", fmt::gmtime(second));
   return date;
 }
 

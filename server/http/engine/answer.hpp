@@ -107,28 +107,19 @@ class PreparedResponse {
   PreparedResponse(const Response& response, std::string packed);
   PreparedResponse& operator=(PreparedResponse&&) = delete;  // neither copied nor moved
 
-  int status() const { return status_; }
-  std::string_view etag() const { return etag_; }
-  std::string_view vary() const { return vary_; }
-  const PreparedHead& head() const { return head_; }
-  const PreparedHead& not_modified_head() const { return not_modified_; }
-  std::string_view body() const { return body_; }
+  const int status;
+  const bool is_packable;
+  const bool is_long;  ///< the gzip form is worth its making
+  const std::string etag;
+  const std::string vary;
+  const std::string body;
+  PreparedHead head;
+  PreparedHead not_modified;
 
-  bool is_packable() const { return is_packable_; }
-  /// Whether the gzip form is worth its making.
-  bool is_long() const { return is_long_; }
-  /// The body in gzip, made at the first call. @pre is_packable()
+  /// The body in gzip, made at the first call. @pre is_packable
   std::string_view packed_body() const;
 
  private:
-  int status_;
-  bool is_packable_;
-  bool is_long_;
-  std::string etag_;
-  std::string vary_;
-  std::string body_;
-  PreparedHead head_;
-  PreparedHead not_modified_;
   mutable std::once_flag packing_;
   mutable std::string packed_;
 };

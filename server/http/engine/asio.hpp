@@ -1,7 +1,6 @@
 #pragma once
 
-// The parts of Asio that the engine uses, compiled once (asio_source.cpp); also its precompiled
-// header.
+// The parts of Asio that the engine uses, compiled once (asio_source.cpp).
 
 #include <boost/asio/basic_socket_acceptor.hpp>
 #include <boost/asio/basic_stream_socket.hpp>
@@ -21,8 +20,7 @@ namespace fitgauge::http {
 namespace asio = boost::asio;
 using boost::system::error_code;
 
-/// The executor is known at compile time: a type-erased one costs a virtual call and a copy for
-/// every operation.
+/// Known at compile time: a type-erased executor costs a virtual call and a copy an operation.
 using IoExecutor = asio::io_context::executor_type;
 using Socket = asio::basic_stream_socket<asio::ip::tcp, IoExecutor>;
 using Acceptor = asio::basic_socket_acceptor<asio::ip::tcp, IoExecutor>;

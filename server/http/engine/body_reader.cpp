@@ -4,23 +4,12 @@
 
 namespace fitgauge::http {
 
-void BodyReader::start(const Plan& plan) {
-  clear();
-  plan_ = plan;
-  if (plan.gzip) gunzip_.emplace();
-}
-
 void BodyReader::clear() {
   data_.reset();
   spooled_ = MappedFile();
   gunzip_.reset();
   share_ = ByteShare();
   size_ = capacity_ = discarded_ = let_go_ = 0;
-}
-
-BodyReader::Outcome BodyReader::reserve(std::size_t size) {
-  if (size > plan_.limit) return Outcome::TooLarge;
-  return hold(size, budgets_.wholes);
 }
 
 /// Grows in few steps: the last one has room for every body within the limit.
@@ -101,10 +90,6 @@ BodyReader::Outcome BodyReader::add_decoded(std::string_view& piece) {
     }
   }
   return Outcome::Ok;
-}
-
-BodyReader::Outcome BodyReader::finish() const {
-  return gunzip_ && !gunzip_->is_complete() ? Outcome::Malformed : Outcome::Ok;
 }
 
 }  // namespace fitgauge::http

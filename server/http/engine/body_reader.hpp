@@ -5,8 +5,7 @@
 
 namespace fitgauge::http {
 
-/// The bytes of large bodies that may be in memory at once, and how many bodies wait for some.
-/// Thread-safe.
+/// Bytes of large bodies that may be in memory, and how many bodies wait. Thread-safe.
 class ByteBudget {
  public:
   explicit ByteBudget(std::size_t limit) : limit_(limit) {}
@@ -93,11 +92,18 @@ class BodyReader {
     /// Whether the bytes are stored unchanged.
     bool is_verbatim() const { return !gzip && !discard; }
   };
-  void start(const Plan& plan);
+  void start(const Plan& plan) {
+    clear();
+    plan_ = plan;
+    if (plan.gzip) gunzip_.emplace();
+  }
   const Plan& plan() const { return plan_; }
 
   /// Makes room for a body of `size` bytes; NoBudget leaves everything as it was.
-  Outcome reserve(std::size_t size);
+  Outcome reserve(std::size_t size) {
+    if (size > plan_.limit) return Outcome::TooLarge;
+    return hold(size, budgets_.wholes);
+  }
 
   /// Consumes bytes from the front of `piece`; after NoBudget add the rest later.
   Outcome add(std::string_view& piece);
@@ -112,7 +118,9 @@ class BodyReader {
   }
 
   /// Ends the body: Malformed if its coding is incomplete.
-  Outcome finish() const;
+  Outcome finish() const {
+    return gunzip_ && !gunzip_->is_complete() ? Outcome::Malformed : Outcome::Ok;
+  }
 
   FileText bytes() const { return {{data(), size_}, spooled_.bytes() != nullptr}; }
   /// Returns the budget that lacked the bytes. @pre the result was NoBudget

@@ -151,12 +151,6 @@ void Connection::run_handler() {
   answer(std::move(*result));
 }
 
-void Connection::refuse(const Refusal& refusal) {
-  close_after_ = lingers_ = true;
-  is_open_ = true;
-  answer(exchange_.refuse(head_, thread_.next_request_id(), refusal));
-}
-
 void Connection::answer(Response&& response) {
   const std::size_t before = output_.text_size();
   sent_ = append_answer(output_, response, exchange_.form(!close_after_), thread_.date());
@@ -285,12 +279,6 @@ void Connection::close() noexcept {
     fitgauge::guarded("a stream that ends early", [&] { stream->source->cancelled(); });
   }
   thread_.remove(*this);
-}
-
-void Connection::drain() {
-  close_after_ = true;
-  const bool streams = phase_ == Phase::Stream || phase_ == Phase::Piece;
-  if (phase_ == Phase::Opening || (phase_ == Phase::Idle && !writing_) || streams) close();
 }
 
 /// The caller of a stream may not read on.

@@ -2,22 +2,14 @@
 
 #include <cassert>
 
-#include "base/gzip.hpp"
-#include "base/thread.hpp"
-#include "http/engine/answer.hpp"
-#include "http/engine/body_reader.hpp"
 #include "http/engine/exchange.hpp"
 #include "http/engine/io_thread.hpp"
-#include "http/engine/request_head.hpp"
 #include "http/engine/request_parser.hpp"
-#include "http/request.hpp"
-#include "http/response.hpp"
 
 namespace fitgauge::http {
 
 /// The bytes read from a connection: the head of the current request, then unparsed bytes. Small
-/// while idle, grows with a long head. A complete head does not move: pin_head() moves it aside
-/// before its body is read.
+/// while idle, grows with a long head. A complete head does not move: pin_head() keeps it.
 class InputBuffer {
  public:
   static constexpr std::size_t kSmall = 4096;
@@ -134,14 +126,22 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::optional<Tick> unsent_since() const { return unsent_since_; }
 
   /// The bytes a body waits for before it can be read on, or 0.
-  std::size_t bytes_waited_for() const;
+  std::size_t bytes_waited_for() const {
+    if (phase_ != Phase::Budget) return 0;
+    return std::max(static_cast<std::size_t>(head_.content_length.value_or(0)),
+                    body_.bytes().text.size() + 1);
+  }
   std::uint64_t request_id() const { return exchange_.request().id(); }
   void retry_budget();
   /// Called by NextReads: reads the bytes after the last response, or waits for them.
   /// @returns false if there were none.
   bool read_in_turn() noexcept;
   /// The server stops: ends now or after the request in flight.
-  void drain();
+  void drain() {
+    close_after_ = true;
+    const bool streams = phase_ == Phase::Stream || phase_ == Phase::Piece;
+    if (phase_ == Phase::Opening || (phase_ == Phase::Idle && !writing_) || streams) close();
+  }
   void close() noexcept;
 
   std::size_t index = 0;         ///< in the thread's list
@@ -157,8 +157,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Peer& peer() { return peer_; }
 
   virtual void read_some(std::span<char> room) = 0;  ///< then on_read
-  /// Reads the bytes that have arrived; `error` is would_block if there are none, or if the
-  /// transport does not know.
+  /// Reads the bytes that have arrived; would_block if there are none or it does not know.
   virtual std::size_t read_now(std::span<char> room, error_code& error);
   /// Whether unread bytes have arrived; false if the transport does not know.
   virtual bool has_unread() const noexcept { return false; }
@@ -211,7 +210,11 @@ class Connection : public std::enable_shared_from_this<Connection> {
   bool take_body_outcome(BodyReader::Outcome outcome);
   bool finish_body();
   void run_handler();
-  void refuse(const Refusal& refusal);
+  void refuse(const Refusal& refusal) {
+    close_after_ = lingers_ = true;
+    is_open_ = true;
+    answer(exchange_.refuse(head_, thread_.next_request_id(), refusal));
+  }
   void answer(Response&& response);
   void finish_request();
   void report(bool broken_off);

@@ -1,5 +1,6 @@
-// The part of a connection that reads a request's body: directly into its memory, or through the
-// chunked coding and gzip; it waits while other bodies hold the memory.
+// The bodies of a connection. A request's body is read directly into its memory, or through the
+// chunked coding and gzip; it waits while other bodies hold the memory. Answers of asynchronous
+// handlers and the pieces of streamed bodies come from other threads.
 
 #include "http/engine/connection.hpp"
 
@@ -9,6 +10,8 @@ namespace {
 /// Bodies of unknown length that wait for memory; another one is refused at once.
 constexpr std::size_t kMostWaiting = 2;
 constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+
+thread_local AnswerBatch* batch_of_this_thread = nullptr;
 
 }  // namespace
 
@@ -111,12 +114,6 @@ bool Connection::take_body_outcome(BodyReader::Outcome outcome) {
   return false;
 }
 
-std::size_t Connection::bytes_waited_for() const {
-  if (phase_ != Phase::Budget) return 0;
-  return std::max(static_cast<std::size_t>(head_.content_length.value_or(0)),
-                  body_.bytes().text.size() + 1);
-}
-
 void Connection::retry_budget() {
   guarded([&] {
     ByteBudget* const waited_for = &body_.lacking();
@@ -141,6 +138,143 @@ bool Connection::finish_body() {
   exchange_.set_body(body_.bytes());
   run_handler();
   return true;
+}
+
+AnswerBatch::AnswerBatch() { batch_of_this_thread = this; }
+
+AnswerBatch::~AnswerBatch() {
+  batch_of_this_thread = nullptr;
+  for (auto& [thread, functions] : threads_) {
+    thread->post([functions = std::move(functions)] {
+      for (const std::function<void()>& function : functions) function();
+    });
+  }
+}
+
+void AnswerBatch::add(IoThread& thread, std::function<void()> function) {
+  auto entry = std::ranges::find(threads_, &thread, &decltype(threads_)::value_type::first);
+  if (entry == threads_.end()) entry = threads_.insert(entry, {&thread, {}});
+  entry->second.push_back(std::move(function));
+}
+
+template <class Function>
+void Connection::post(Function function) {
+  auto run = [self = shared_from_this(), function = std::move(function)]() mutable {
+    if (self->phase_ == Phase::Closed) return;
+    self->guarded([&] {
+      function(*self);
+      self->advance();
+    });
+  };
+  if (batch_of_this_thread != nullptr) {
+    batch_of_this_thread->add(thread_, std::move(run));
+  } else {
+    thread_.post(std::move(run));
+  }
+}
+
+void Connection::post_answer(Response response) {
+  post([response = std::move(response)](Connection& self) mutable {
+    if (self.phase_ == Phase::InHandler) self.answer(std::move(response));
+  });
+}
+
+void Connection::post_error(Error error) {
+  post([error = std::move(error)](Connection& self) {
+    if (self.phase_ == Phase::InHandler) self.answer(self.exchange_.error_response(error));
+  });
+}
+
+void Connection::post_unanswered() {
+  post([](Connection& self) {
+    if (self.phase_ == Phase::InHandler) self.answer(self.exchange_.unanswered());
+  });
+}
+
+void Connection::post_piece(std::string bytes, bool is_last) {
+  if (packer_) {
+    packer_->add(bytes);
+    bytes = is_last ? packer_->finish() : packer_->take();
+  }
+  post([bytes = std::move(bytes), is_last](Connection& self) {
+    if (self.phase_ == Phase::Piece) self.take_piece(bytes, is_last);
+  });
+}
+
+void Connection::post_stream_failure() {
+  post([](Connection& self) {
+    if (self.phase_ == Phase::Piece) self.close();
+  });
+}
+
+bool Connection::step_stream() {
+  if (!output_.empty()) return false;
+  phase_ = Phase::Piece;
+  deadline_ = thread_.now() + stream_->heartbeat_interval;
+  stream_->source->next(ChunkSink(shared_from_this()));
+  return false;
+}
+
+void Connection::append_piece(std::string_view bytes) {
+  const std::size_t before = output_.text_size();
+  if (sent_.chunked) {
+    append_chunk(output_.text(), bytes);
+  } else {
+    output_.text().append(bytes);
+  }
+  sent_bytes_ += output_.text_size() - before;
+}
+
+void Connection::take_piece(std::string_view bytes, bool is_last) {
+  phase_ = Phase::Stream;
+  append_piece(bytes);
+  if (!is_last) return;
+  if (sent_.chunked) output_.text().append(kLastChunk);
+  stream_.reset();
+  packer_.reset();
+  finish_request();
+}
+
+void Connection::beat(Tick now) {
+  if (now < deadline_) return;
+  deadline_ = now + stream_->heartbeat_interval;
+  stream_->source->idle();
+  if (stream_->heartbeat.empty()) return;
+  append_piece(stream_->heartbeat);
+  advance();
+}
+
+Responder::Responder(std::shared_ptr<Connection> connection) : connection_(std::move(connection)) {}
+Responder::Responder(Responder&&) noexcept = default;
+Responder& Responder::operator=(Responder&& other) noexcept {
+  std::swap(connection_, other.connection_);
+  return *this;
+}
+Responder::~Responder() {
+  if (connection_) std::exchange(connection_, nullptr)->post_unanswered();
+}
+void Responder::answer(Response response) {
+  if (connection_) std::exchange(connection_, nullptr)->post_answer(std::move(response));
+}
+void Responder::fail(Error error) {
+  if (connection_) std::exchange(connection_, nullptr)->post_error(std::move(error));
+}
+
+ChunkSink::ChunkSink(std::shared_ptr<Connection> connection) : connection_(std::move(connection)) {}
+ChunkSink::ChunkSink(ChunkSink&&) noexcept = default;
+ChunkSink& ChunkSink::operator=(ChunkSink&& other) noexcept {
+  std::swap(connection_, other.connection_);
+  return *this;
+}
+ChunkSink::~ChunkSink() { fail(); }
+void ChunkSink::put(std::string bytes) {
+  if (connection_) std::exchange(connection_, nullptr)->post_piece(std::move(bytes), false);
+}
+void ChunkSink::finish(std::string bytes) {
+  if (connection_) std::exchange(connection_, nullptr)->post_piece(std::move(bytes), true);
+}
+void ChunkSink::fail() {
+  if (connection_) std::exchange(connection_, nullptr)->post_stream_failure();
 }
 
 }  // namespace fitgauge::http

@@ -1,7 +1,6 @@
 #include "http/engine/exchange.hpp"
 
 #include "base/text.hpp"
-#include "http/field_list.hpp"
 
 namespace fitgauge::http {
 
@@ -15,7 +14,7 @@ constexpr std::string_view kAllowedFields =
     "X-API-Key, X-Request-Id";
 
 bool is_request_id(std::string_view text) {
-  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), [](char c) {
+  return !text.empty() && text.size() <= 64 && std::ranges::all_of(text, [](char c) {
     return is_ascii_alphanumeric(c) || c == '.' || c == '_' || c == '-';
   });
 }
@@ -57,17 +56,12 @@ void Exchange::take(RequestHead& head, std::uint64_t id) {
   }
   if (head.has_origin && !allowed_origins_.empty()) {
     const auto origin = head.find_list("Origin");
-    const auto allowed = std::find(allowed_origins_.begin(), allowed_origins_.end(), origin);
+    const auto allowed = std::ranges::find(allowed_origins_, origin);
     if (allowed != allowed_origins_.end()) request_.allowed_origin_ = *allowed;
   }
   if (head.has_accept_encoding && !head.http_1_0) {
     codings_ = accepted_codings(head.find_list("Accept-Encoding").value_or(""));
   }
-}
-
-Response Exchange::refuse(RequestHead& head, std::uint64_t id, const Refusal& refusal) {
-  if (head_ == nullptr) take(head, id);
-  return error_response(refusal);
 }
 
 std::optional<Response> Exchange::open(RequestHead& head, std::uint64_t id) {
@@ -108,8 +102,9 @@ std::optional<Response> Exchange::dispatch() {
   const auto route_index = static_cast<std::size_t>(index);
   request_.route_ = &routes_.routes()[route_index];
   if (hooks_.guard) {
-    auto answer = ask_guard();
-    if (answer) return answer;
+    auto answer = hooks_.guard(request_, *request_.route_);
+    if (!answer) return error_response(answer.error());
+    if (*answer) return *std::move(answer);
   }
   if (const auto error = take_arguments(segments, routes_.tree().plan(route_index))) {
     const bool is_readable =
@@ -157,12 +152,6 @@ std::optional<Refusal> Exchange::take_target() {
   return std::nullopt;
 }
 
-std::optional<Response> Exchange::ask_guard() {
-  auto verdict = hooks_.guard(request_, *request_.route_);
-  if (!verdict) return error_response(verdict.error());
-  return std::move(*verdict);
-}
-
 std::optional<Response> Exchange::check_head() {
   if (const auto refusal = negotiate()) return error_response(*refusal);
   if (const auto refusal = check_body()) return error_response(*refusal);
@@ -189,7 +178,7 @@ std::optional<Error> Exchange::take_query() {
   const std::vector<Parameter>& parameters = request_.route_->parameters;
   std::string_view rest = request_.query_;
   const auto decode = [&](std::string_view text) -> std::optional<std::string_view> {
-    if (std::all_of(text.begin(), text.end(), is_plain)) return text;
+    if (std::ranges::all_of(text, is_plain)) return text;
     const std::size_t start = decoded_.size();
     if (!append_percent_decoded(decoded_, text, true)) return std::nullopt;
     return std::string_view(decoded_).substr(start);
@@ -206,10 +195,9 @@ std::optional<Error> Exchange::take_query() {
           ErrorCode::QueryMalformed,
           "query must be UTF-8 without NUL, and have % only before two hexadecimal digits"};
     }
-    const auto found =
-        std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& parameter) {
-          return parameter.place == ParameterPlace::Query && parameter.name == *name;
-        });
+    const auto found = std::ranges::find_if(parameters, [&](const Parameter& parameter) {
+      return parameter.place == ParameterPlace::Query && parameter.name == *name;
+    });
     if (found == parameters.end()) {
       return Error{ErrorCode::QueryUnknown, fmt::format("unknown parameter {}", *name),
                    std::string(*name)};
@@ -292,8 +280,7 @@ std::optional<Refusal> Exchange::check_body() {
       rules.use == BodyUse::Required || (rules.use == BodyUse::Optional && head_->has_body());
   if (is_expected && !rules.media_types.empty()) {
     const auto& types = rules.media_types;
-    const bool is_known =
-        media && std::find(types.begin(), types.end(), media->type) != types.end();
+    const bool is_known = media && std::ranges::find(types, media->type) != types.end();
     if (!is_known) {
       return Refusal{415, ErrorCode::MediaTypeUnsupported,
                      fmt::format("Content-Type must be {}{}", types.size() > 1 ? "one of: " : "",
@@ -359,18 +346,6 @@ void Exchange::run(Responder responder) {
   } catch (const std::exception& error) {  // its Responder, destroyed, has answered 500
     if (hooks_.handler_threw) hooks_.handler_threw(request_, error.what());
   }
-}
-
-Response Exchange::internal_error(std::string_view what) const {
-  if (hooks_.handler_threw) hooks_.handler_threw(request_, what);
-  return error_response({500, ErrorCode::Internal,
-                         fmt::format("the request failed; its id is {}", request_.id_text())});
-}
-
-Response Exchange::error_response(const Refusal& refusal) const {
-  Response response = error_response(Error{refusal.code, refusal.message}, refusal.status);
-  if (refusal.code == ErrorCode::EncodingUnsupported) response.with("Accept-Encoding", "gzip");
-  return response;
 }
 
 Response Exchange::error_response(const Error& error, std::optional<int> status) const {

@@ -4,9 +4,6 @@
 #include "http/engine/body_reader.hpp"
 #include "http/engine/request_head.hpp"
 #include "http/engine/route_tree.hpp"
-#include "http/request.hpp"
-#include "http/response.hpp"
-#include "http/route.hpp"
 #include "http/server.hpp"
 
 namespace fitgauge::http {
@@ -25,7 +22,10 @@ class Exchange {
   std::optional<Response> open(RequestHead& head, std::uint64_t id);
 
   /// Returns the response to a refused request, as far as it was read.
-  Response refuse(RequestHead& head, std::uint64_t id, const Refusal& refusal);
+  Response refuse(RequestHead& head, std::uint64_t id, const Refusal& refusal) {
+    if (head_ == nullptr) take(head, id);
+    return error_response(refusal);
+  }
 
   BodyReader::Plan body_plan() const;
   Refusal body_too_large() const;
@@ -48,18 +48,25 @@ class Exchange {
   Response error_response(const Error& error, std::optional<int> status = std::nullopt) const;
   /// The answer when an asynchronous handler dropped its Responder.
   Response unanswered() const { return internal_error("the handler dropped its Responder"); }
-  Response error_response(const Refusal& refusal) const;
+  Response error_response(const Refusal& refusal) const {
+    Response response = error_response(Error{refusal.code, refusal.message}, refusal.status);
+    if (refusal.code == ErrorCode::EncodingUnsupported) response.with("Accept-Encoding", "gzip");
+    return response;
+  }
 
   const Request& request() const { return request_; }
   void clear();
 
  private:
   void take(RequestHead& head, std::uint64_t id);
-  Response internal_error(std::string_view what) const;
+  Response internal_error(std::string_view what) const {
+    if (hooks_.handler_threw) hooks_.handler_threw(request_, what);
+    return error_response({500, ErrorCode::Internal,
+                           fmt::format("the request failed; its id is {}", request_.id_text())});
+  }
   std::optional<Response> dispatch();
   Response answer_options(std::string allow) const;
   std::optional<Refusal> take_target();
-  std::optional<Response> ask_guard();
   std::optional<Response> check_head();
   std::optional<Error> take_arguments(const PathSegments& path, const RouteTree::Plan& plan);
   std::optional<Error> take_query();

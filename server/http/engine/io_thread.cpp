@@ -8,8 +8,7 @@ namespace {
 /// A useless turn after this number of answers costs nothing noticeable.
 constexpr unsigned kUntilRetry = 256;
 
-/// Deadlines are checked at a quarter of the shortest one, and at least every quarter of a second,
-/// to keep the Date fresh.
+/// Deadlines are checked at a quarter of the shortest, at least four times a second for the Date.
 std::chrono::milliseconds sweep_interval(const ServerOptions& options) {
   using std::chrono::milliseconds;
   const auto shortest = std::min({options.header_timeout, options.request_timeout,
@@ -32,8 +31,8 @@ bool NextReads::put(Connection& connection) {
 
 void NextReads::read() {
   turn_.swap(waiting_);
-  const auto found = std::count_if(turn_.begin(), turn_.end(),
-                                   [](const auto& each) { return each->read_in_turn(); });
+  const auto found =
+      std::ranges::count_if(turn_, [](const auto& each) { return each->read_in_turn(); });
   if (2 * static_cast<std::size_t>(found) < turn_.size()) until_retry_ = kUntilRetry;
   turn_.clear();
 }
@@ -115,8 +114,7 @@ void IoThread::sweep() {
 }
 
 /// Ends the responses that clients have not read for the longest time, until the others have room.
-/// So any number of slow readers cannot hold all memory. The newest response continues at any
-/// length.
+/// So slow readers cannot hold all memory. The newest response continues at any length.
 void IoThread::bound_unsent() {
   const std::size_t most = shared_.options.unsent_budget / std::max(shared_.options.io_threads, 1U);
   std::size_t held = 0;
@@ -129,8 +127,9 @@ void IoThread::bound_unsent() {
     if (is_long && since && now_ - *since > shared_.options.unsent_time)
       leaving.push_back(connection.shared_from_this());
   });
-  std::sort(leaving.begin(), leaving.end(),
-            [](const auto& a, const auto& b) { return *a->unsent_since() < *b->unsent_since(); });
+  std::ranges::sort(leaving, [](const auto& a, const auto& b) {
+    return *a->unsent_since() < *b->unsent_since();
+  });
   for (std::size_t i = 0; i + 1 < leaving.size() && held > most; ++i) {
     held -= leaving[i]->bytes_unsent();
     leaving[i]->close();
@@ -142,9 +141,8 @@ void IoThread::admit_waiting() {
   for_each_connection([&](Connection& connection) {
     if (connection.bytes_waited_for() > 0) waiting.push_back(connection.shared_from_this());
   });
-  // The smallest first, and the newest of equals: many senders that never finish cannot block one
-  // that does.
-  std::sort(waiting.begin(), waiting.end(), [](const auto& a, const auto& b) {
+  // The smallest first, the newest of equals: senders that never finish block none that does.
+  std::ranges::sort(waiting, [](const auto& a, const auto& b) {
     return a->bytes_waited_for() != b->bytes_waited_for()
                ? a->bytes_waited_for() < b->bytes_waited_for()
                : a->request_id() > b->request_id();

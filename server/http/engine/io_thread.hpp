@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/clock.hpp"
 #include "base/thread.hpp"
 #include "http/engine/answer.hpp"
 #include "http/engine/asio.hpp"
@@ -78,8 +77,6 @@ class NextReads {
   std::vector<std::shared_ptr<Connection>> turn_;  ///< being read
   unsigned until_retry_ = 0;                       ///< number of posts until a turn tries again
 };
-
-class Connection;
 
 using Tick = std::chrono::steady_clock::time_point;
 

@@ -101,7 +101,7 @@ bool is_authority(std::string_view text) {
     const std::size_t end = text.find(']');
     if (end == std::string_view::npos || end == 1) return false;
     const std::string_view literal = text.substr(1, end - 1);
-    if (!std::all_of(literal.begin(), literal.end(), is_ip_literal_character)) return false;
+    if (!std::ranges::all_of(literal, is_ip_literal_character)) return false;
     host = end + 1;
   } else {
     while (host < text.size() && is_host_character(text[host])) ++host;

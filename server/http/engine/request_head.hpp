@@ -60,8 +60,7 @@ inline constexpr std::array<bool, 256> kPlainCharacters = [] {
 }();
 }  // namespace detail
 
-/// Characters of a path or query that need neither decoding nor a check: printable ASCII
-/// but for `%` and `+`.
+/// Characters that need neither decoding nor a check: printable ASCII but for `%` and `+`.
 constexpr bool is_plain(char c) { return detail::kPlainCharacters[static_cast<unsigned char>(c)]; }
 
 /// host [":" port] as the Host field has it (RFC 3986 section 3.2.2, without user information).

@@ -125,10 +125,7 @@ RequestParser::Step RequestParser::take_error(const beast::error_code& error,
   if (error == beast::http::error::bad_version) {
     return refuse(400, ErrorCode::VersionUnsupported, "HTTP version must be 1.0 or 1.1");
   }
-  if (error == beast::http::error::header_limit) {
-    return refuse(431, ErrorCode::HeaderTooLarge,
-                  "header section must have at most 32 KiB; send fewer or shorter fields");
-  }
+  if (error == beast::http::error::header_limit) return refuse_long_header();
   if (error == beast::http::error::bad_chunk && has_endless_size(pending)) return refuse_body();
   return refuse(400, ErrorCode::RequestMalformed, describe(error));
 }
@@ -147,15 +144,9 @@ RequestParser::Step RequestParser::need_more(std::string_view pending) {
       return refuse(414, ErrorCode::TargetTooLong, "request target must have at most 8 KiB");
     }
   } else if (head_bytes_ + pending.size() > kMaxHeaderSection) {
-    return refuse(431, ErrorCode::HeaderTooLarge,
-                  "header section must have at most 32 KiB; send fewer or shorter fields");
+    return refuse_long_header();
   }
   return Step::NeedMore;
-}
-
-RequestParser::Step RequestParser::refuse_body() {
-  return refuse(413, ErrorCode::BodyTooLarge,
-                "the chunks announce a larger body than this route accepts");
 }
 
 void RequestParser::on_chunk_header_impl(std::uint64_t size, beast::string_view,
@@ -166,12 +157,6 @@ void RequestParser::on_chunk_header_impl(std::uint64_t size, beast::string_view,
   } else {
     body_left_ -= size;
   }
-}
-
-RequestParser::Step RequestParser::refuse(int status, ErrorCode code, const char* message) {
-  if (!refused_) refusal_ = {status, code, message};
-  refused_ = true;
-  return Step::Refused;
 }
 
 void RequestParser::on_request_impl(beast::http::verb, beast::string_view method,
@@ -242,8 +227,7 @@ bool RequestParser::check_head() {
   };
   if (head_bytes_ >
       kMaxHeaderSection + 16) {  // the count begins at the version of the request line
-    refuse(431, ErrorCode::HeaderTooLarge,
-           "header section must have at most 32 KiB; send fewer or shorter fields");
+    refuse_long_header();
     return false;
   }
   if (has_transfer_encoding_) {

@@ -41,8 +41,19 @@ class RequestParser final : private boost::beast::http::basic_parser<true> {
   using ErrorCodeOut = boost::beast::error_code;
 
   Step parse(std::string_view input, std::size_t& used);
-  Step refuse(int status, ErrorCode code, const char* message);
-  Step refuse_body();
+  Step refuse(int status, ErrorCode code, const char* message) {
+    if (!refused_) refusal_ = {status, code, message};
+    refused_ = true;
+    return Step::Refused;
+  }
+  Step refuse_long_header() {
+    return refuse(431, ErrorCode::HeaderTooLarge,
+                  "header section must have at most 32 KiB; send fewer or shorter fields");
+  }
+  Step refuse_body() {
+    return refuse(413, ErrorCode::BodyTooLarge,
+                  "the chunks announce a larger body than this route accepts");
+  }
   Step take_error(const boost::beast::error_code& error, std::string_view pending);
   Step need_more(std::string_view pending);
   bool check_head();

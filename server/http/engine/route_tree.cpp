@@ -1,6 +1,5 @@
 #include "http/engine/route_tree.hpp"
 
-#include "base/length.hpp"
 #include "base/number.hpp"
 #include "base/text.hpp"
 #include "http/engine/request_head.hpp"
@@ -8,23 +7,11 @@
 namespace fitgauge::http {
 namespace {
 
-const char* describe(ParameterPlace place) {
-  switch (place) {
-    case ParameterPlace::Path: return "path segment";
-    case ParameterPlace::Query: return "query parameter";
-    case ParameterPlace::Header: return "header field";
-  }
-  return "";
-}
-
-ErrorCode code_for(ParameterPlace place) {
-  switch (place) {
-    case ParameterPlace::Path: return ErrorCode::PathMalformed;
-    case ParameterPlace::Query: return ErrorCode::QueryInvalid;
-    case ParameterPlace::Header: break;
-  }
-  return ErrorCode::RequestMalformed;
-}
+/// By ParameterPlace: its words, and the code of a bad value.
+constexpr std::pair<std::string_view, ErrorCode> kPlaces[] = {
+    {"path segment", ErrorCode::PathMalformed},
+    {"query parameter", ErrorCode::QueryInvalid},
+    {"header field", ErrorCode::RequestMalformed}};
 
 /// A time that begins or ends a range may be outside of the range of a Timestamp.
 Result<Timestamp> parse_time(std::string_view text) {
@@ -45,10 +32,12 @@ struct Reader {
   const Parameter& parameter;
   std::string_view text;
 
+  const std::pair<std::string_view, ErrorCode>& place() const {
+    return kPlaces[static_cast<std::size_t>(parameter.place)];
+  }
   Error refuse(const std::string& expected) const {
-    return {code_for(parameter.place),
-            fmt::format("{} {} must be {}", describe(parameter.place), parameter.name, expected),
-            parameter.name};
+    const auto& [words, code] = place();
+    return {code, fmt::format("{} {} must be {}", words, parameter.name, expected), parameter.name};
   }
 
   Result<ArgumentValue> operator()(const Text& type) const {
@@ -82,8 +71,7 @@ struct Reader {
                                                       : parse_length_um(text, syntax);
     if (!length) {
       Error error = std::move(length).error();
-      error.message =
-          fmt::format("The {} {}: {}", describe(parameter.place), parameter.name, error.message);
+      error.message = fmt::format("The {} {}: {}", place().first, parameter.name, error.message);
       error.where = parameter.name;
       return error;
     }
@@ -91,7 +79,7 @@ struct Reader {
   }
 
   Result<ArgumentValue> operator()(const Words& type) const {
-    const auto found = std::find(type.words.begin(), type.words.end(), text);
+    const auto found = std::ranges::find(type.words, text);
     if (found == type.words.end()) {
       return refuse(fmt::format("one of: {}", fmt::join(type.words, ", ")));
     }
@@ -103,7 +91,7 @@ struct Reader {
     if (!time && parameter.place == ParameterPlace::Query) {
       // The + of an offset that was not percent-encoded arrives as a blank.
       std::string signed_offset(text);
-      std::replace(signed_offset.begin(), signed_offset.end(), ' ', '+');
+      std::ranges::replace(signed_offset, ' ', '+');
       time = parse_time(signed_offset);
     }
     if (!time) return refuse("a time as in RFC 3339, 2026-11-20T08:00:00Z");
@@ -170,10 +158,9 @@ void RouteTree::add(Route& route, std::int16_t index) {
   Plan& plan = plans_[static_cast<std::size_t>(index)];
   std::size_t depth = 0;
   const auto capture = [&](std::string_view parameter, bool takes_rest) {
-    auto found = std::find_if(
-        route.parameters.begin(), route.parameters.end(), [&](const Parameter& candidate) {
-          return candidate.place == ParameterPlace::Path && candidate.name == parameter;
-        });
+    auto found = std::ranges::find_if(route.parameters, [&](const Parameter& candidate) {
+      return candidate.place == ParameterPlace::Path && candidate.name == parameter;
+    });
     if (found == route.parameters.end()) {
       found = route.parameters.insert(
           found, Parameter{.name = std::string(parameter), .place = ParameterPlace::Path});
@@ -205,8 +192,8 @@ void RouteTree::add(Route& route, std::int16_t index) {
     } else if (segment.find_first_of("{}") != std::string_view::npos) {
       fail("has a parameter that is not a whole segment");
     } else {
-      auto found = std::find_if(node->literals.begin(), node->literals.end(),
-                                [&](const auto& literal) { return literal.first == segment; });
+      auto found = std::ranges::find_if(
+          node->literals, [&](const auto& literal) { return literal.first == segment; });
       if (found == node->literals.end()) found = node->literals.emplace(found, segment, nullptr);
       next = &found->second;
     }
@@ -222,9 +209,8 @@ void RouteTree::add(Route& route, std::int16_t index) {
     plan.has_query |= parameter.place == ParameterPlace::Query;
     plan.has_headers |= parameter.place == ParameterPlace::Header;
   }
-  const auto path_parameters =
-      std::count_if(route.parameters.begin(), route.parameters.end(),
-                    [](const Parameter& each) { return each.place == ParameterPlace::Path; });
+  const auto path_parameters = std::ranges::count_if(
+      route.parameters, [](const Parameter& each) { return each.place == ParameterPlace::Path; });
   if (static_cast<std::size_t>(path_parameters) != plan.captures.size()) {
     fail("declares a path parameter that the pattern does not have");
   }

@@ -4,7 +4,6 @@
 #include <openssl/pem.h>
 
 #include "base/regular_file.hpp"
-#include "base/thread.hpp"
 
 namespace fitgauge::http {
 namespace {
@@ -134,11 +133,6 @@ void TlsConnection::read_some(std::span<char> room) {
       [this](const error_code& error, std::size_t count) { on_read(error, count); });
 }
 
-bool TlsConnection::has_unread() const noexcept {
-  error_code ignored;
-  return SSL_has_pending(session_.get()) == 1 || socket_.available(ignored) > 0;
-}
-
 void TlsConnection::write_some(std::string_view bytes) {
   drive(
       [bytes](SSL* session) {
@@ -157,26 +151,12 @@ void TlsConnection::end_gracefully() {
       [this](const error_code&, std::size_t) { close(); });
 }
 
-void TlsConnection::close_socket() noexcept {
-  error_code ignored;
-  socket_.close(ignored);
-}
-
 void PlainConnection::read_some(std::span<char> room) {
   socket_.async_read_some(
       asio::buffer(room.data(), room.size()),
       [this, self = shared_from_this()](const error_code& error, std::size_t count) {
         on_read(error, count);
       });
-}
-
-std::size_t PlainConnection::read_now(std::span<char> room, error_code& error) {
-  return socket_.read_some(asio::buffer(room.data(), room.size()), error);
-}
-
-bool PlainConnection::has_unread() const noexcept {
-  error_code ignored;
-  return socket_.available(ignored) > 0;
 }
 
 std::size_t PlainConnection::write_now(std::string_view bytes, bool& broken) {
@@ -192,17 +172,6 @@ void PlainConnection::write_some(std::string_view bytes) {
       [this, self = shared_from_this()](const error_code& error, std::size_t count) {
         on_write(error, count);
       });
-}
-
-void PlainConnection::end_gracefully() {
-  error_code ignored;
-  socket_.shutdown(Socket::shutdown_send, ignored);
-  read_more();
-}
-
-void PlainConnection::close_socket() noexcept {
-  error_code ignored;
-  socket_.close(ignored);
 }
 
 Listener::Listener(std::vector<IoThread*> threads, Deliver deliver)
@@ -250,12 +219,6 @@ Result<std::unique_ptr<Listener>> Listener::open(const ListenAddress& address,
   if (!error) listener->port_ = acceptor.local_endpoint(error).port();
   if (error) return cannot_listen(address, error);
   return listener;
-}
-
-void Listener::close() {
-  error_code ignored;
-  acceptor_.close(ignored);
-  retry_.cancel();
 }
 
 void Listener::accept() {

@@ -4,11 +4,7 @@
 
 #include <boost/asio/ssl/context.hpp>
 
-#include "base/result.hpp"
-#include "http/engine/asio.hpp"
 #include "http/engine/connection.hpp"
-#include "http/engine/io_thread.hpp"
-#include "http/server.hpp"
 
 namespace fitgauge::http {
 
@@ -29,11 +25,17 @@ class TlsConnection final : public Connection {
 
  private:
   void read_some(std::span<char> room) override;
-  bool has_unread() const noexcept override;
+  bool has_unread() const noexcept override {
+    error_code ignored;
+    return SSL_has_pending(session_.get()) == 1 || socket_.available(ignored) > 0;
+  }
   std::size_t write_now(std::string_view, bool&) override { return 0; }
   void write_some(std::string_view bytes) override;
   void end_gracefully() override;
-  void close_socket() noexcept override;
+  void close_socket() noexcept override {
+    error_code ignored;
+    socket_.close(ignored);
+  }
 
   /// Calls `step` again each time the socket is ready, until OpenSSL waits no more. `done` gets the
   /// error and the bytes, never inside drive().
@@ -60,12 +62,24 @@ class PlainConnection final : public Connection {
 
  private:
   void read_some(std::span<char> room) override;
-  std::size_t read_now(std::span<char> room, error_code& error) override;
-  bool has_unread() const noexcept override;
+  std::size_t read_now(std::span<char> room, error_code& error) override {
+    return socket_.read_some(asio::buffer(room.data(), room.size()), error);
+  }
+  bool has_unread() const noexcept override {
+    error_code ignored;
+    return socket_.available(ignored) > 0;
+  }
   std::size_t write_now(std::string_view bytes, bool& broken) override;
   void write_some(std::string_view bytes) override;
-  void end_gracefully() override;
-  void close_socket() noexcept override;
+  void end_gracefully() override {
+    error_code ignored;
+    socket_.shutdown(Socket::shutdown_send, ignored);
+    read_more();
+  }
+  void close_socket() noexcept override {
+    error_code ignored;
+    socket_.close(ignored);
+  }
 
   Socket socket_;
 };
@@ -84,7 +98,11 @@ class Listener {
 
   std::uint16_t port() const { return port_; }
   void start() { accept(); }
-  void close();
+  void close() {
+    error_code ignored;
+    acceptor_.close(ignored);
+    retry_.cancel();
+  }
 
  private:
   Listener(std::vector<IoThread*> threads, Deliver deliver);
