@@ -3,7 +3,7 @@
 #include "base/mapped_file.hpp"
 #include "cli/address.hpp"
 #include "cli/limits_commands.hpp"
-#include "formats/step/plan.hpp"
+#include "formats/step/drawing.hpp"
 
 namespace fitgauge::cli {
 namespace {

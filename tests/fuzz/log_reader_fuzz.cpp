@@ -1,7 +1,7 @@
 // Bytes as a file of a control, and, up to a first NUL, as a pattern for the rest: every value has
 // a measured text, limits come in pairs around it in order, and the text of a log reads as itself.
 
-#include "formats/measuring_log/pattern.hpp"
+#include "formats/measuring_log/measuring_log.hpp"
 
 using namespace fitgauge::log_reader;
 

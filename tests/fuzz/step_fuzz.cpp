@@ -1,6 +1,6 @@
 // Bytes as a STEP file: read as a drawing, and what was read made a plan that is JSON again.
 
-#include "formats/step/plan.hpp"
+#include "formats/step/drawing.hpp"
 
 using namespace fitgauge;
 

@@ -3,7 +3,7 @@
 #include "api/resources.hpp"
 #include "base/json/field_reader.hpp"
 #include "base/json/json_writer.hpp"
-#include "formats/step/plan.hpp"
+#include "formats/step/drawing.hpp"
 #include "record/measurement_row_reader.hpp"
 
 namespace fitgauge::api {

@@ -3,7 +3,7 @@
 #include "api/handlers.hpp"
 #include "api/plans/plan_codec.hpp"
 #include "api/service/document_routes.hpp"
-#include "formats/step/plan.hpp"
+#include "formats/step/drawing.hpp"
 #include "service/jobs.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 #include "service/tables/table_catalog.hpp"

@@ -36,8 +36,7 @@ struct Letterhead {
   std::vector<std::string> address{};
   Picture logo{};
 };
-/// @param address lines with `;` between them @param logo a file; empty for none @errors as
-/// read_picture
+/// @param address lines between `;` @param logo a file; empty for none @errors as read_picture
 Result<Letterhead> read_letterhead(std::string_view address, const std::string& logo);
 
 /// The content of an inspection report, or of another report of that form.

@@ -87,8 +87,7 @@ class Writer {
 
 using Columns = std::span<const Column>;
 
-/// The tolerance in grey, half as wide as the drawing, with the value: a value far outside is at
-/// the end.
+/// The tolerance in grey, half as wide as the drawing, with the value, at the end if far outside.
 std::string drawing(float place, float x, float y, float width, float height) {
   const float at = x + width * (0.25F + 0.5F * std::clamp(place, -0.48F, 1.48F));
   const float tick = std::max(1.2F, width / 80);

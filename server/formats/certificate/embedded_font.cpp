@@ -1,4 +1,4 @@
-#include "formats/certificate/embedded_font.hpp"
+#include "formats/certificate/tagged_pdf.hpp"
 
 extern "C" {
 extern const char fitgauge_font_begin[];  // font.S

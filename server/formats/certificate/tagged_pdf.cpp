@@ -84,11 +84,6 @@ TaggedPdf::TaggedPdf(std::string_view title, float width, float height)
   open("Document");
 }
 
-std::size_t TaggedPdf::reserve() {
-  places_.emplace_back();
-  return places_.size() - 1;
-}
-
 void TaggedPdf::put(std::size_t number, std::string_view object) {
   constexpr std::size_t kTogether = 200;
   places_[number] = {2, 0, static_cast<std::uint16_t>(waiting_.size())};
@@ -118,11 +113,6 @@ void TaggedPdf::flush() {
   waiting_.clear();
 }
 
-void TaggedPdf::begin_page() {
-  if (!pages_.empty()) end_page();
-  pages_.push_back({reserve(), reserve(), reserve()});
-}
-
 void TaggedPdf::end_page() {
   const Page& page = pages_.back();
   const std::size_t content = reserve();
@@ -135,10 +125,6 @@ void TaggedPdf::end_page() {
   content_.clear();
   parents_.clear();
   marks_ = 0;
-}
-
-void TaggedPdf::open(std::string_view type, std::string more) {
-  open_.push_back({type, reserve(), pages_.back().page, std::move(more)});
 }
 
 void TaggedPdf::close() {
@@ -160,10 +146,6 @@ void TaggedPdf::mark(const std::string& operators) {
   content_ += fmt::format("/{} <</MCID {}>> BDC\n{}EMC\n", element.type, marks_++, operators);
 }
 
-void TaggedPdf::decorate(const std::string& operators) {
-  content_ += "/Artifact BMC\n" + operators + "EMC\n";
-}
-
 std::string TaggedPdf::text(float x, float y, float size, std::string_view line) {
   std::string out = fmt::format("BT /F {} Tf {:.2f} {:.2f} Td <", size, x, y);
   for (std::size_t at = 0; at < line.size();) {
@@ -171,12 +153,6 @@ std::string TaggedPdf::text(float x, float y, float size, std::string_view line)
     for (int shift = 12; shift >= 0; shift -= 4) out += "0123456789ABCDEF"[code >> shift & 15];
   }
   return out += "> Tj ET\n";
-}
-
-float TaggedPdf::width_of(std::string_view line, float size) {
-  std::size_t width = 0;
-  for (std::size_t at = 0; at < line.size();) width += font_.width(next_character(line, at));
-  return static_cast<float>(width) * size / 1000;
 }
 
 std::vector<std::string> TaggedPdf::wrapped(std::string_view text, float size, float room) {

@@ -1,9 +1,35 @@
 #pragma once
 
+#include <unordered_map>
+
 #include "base/result.hpp"
-#include "formats/certificate/embedded_font.hpp"
 
 namespace fitgauge::certificate {
+
+/// Returns the character at `at`, and moves `at` after it. @pre at < text.size()
+char32_t next_character(std::string_view text, std::size_t& at);
+
+/// The compiled-in font (TrueType) for one document. Characters get codes from 1 in the order of
+/// their use. A character that the font lacks is drawn as a box, but can be copied.
+class EmbeddedFont {
+ public:
+  struct Used {
+    char32_t character = 0;
+    std::uint16_t glyph = 0;
+    std::uint16_t width = 0;  ///< in thousandths of the size
+  };
+
+  EmbeddedFont();
+  std::uint16_t code(char32_t character);
+  std::size_t width(char32_t character) { return used_.at(code(character)).width; }
+  const std::vector<Used>& used() const { return used_; }  ///< by code
+  /// The font as a file with only the used glyphs.
+  std::string file() const;
+
+ private:
+  std::vector<Used> used_;
+  std::unordered_map<char32_t, std::uint16_t> codes_;
+};
 
 /// A picture as packed in a PNG file: rows of 8-bit samples, each after its filter.
 struct Picture {
@@ -21,24 +47,34 @@ struct Picture {
 Result<Picture> read_picture(const std::string& path);
 
 /// A PDF 1.7 with structure for screen readers (ISO 32000-1, 14.7 and 14.8), in one embedded font.
-/// Packs its text at once, page by page. Lengths are points from the lower left. Unusable after a
-/// failure.
+/// Packs its text page by page. Lengths are points from the lower left. Unusable after a failure.
 class TaggedPdf {
  public:
   TaggedPdf(std::string_view title, float width, float height);
 
-  void begin_page();
+  void begin_page() {
+    if (!pages_.empty()) end_page();
+    pages_.push_back({reserve(), reserve(), reserve()});
+  }
   /// Begins an element of the structure below the open one. @param more entries of its dictionary
-  void open(std::string_view type, std::string more = {});
+  void open(std::string_view type, std::string more = {}) {
+    open_.push_back({type, reserve(), pages_.back().page, std::move(more)});
+  }
   void close();
   /// Operators of the page: the content of the open element.
   void mark(const std::string& operators);
   /// Writes operators that a screen reader skips.
-  void decorate(const std::string& operators);
+  void decorate(const std::string& operators) {
+    content_ += "/Artifact BMC\n" + operators + "EMC\n";
+  }
 
   /// The operators of one line.
   std::string text(float x, float y, float size, std::string_view line);
-  float width_of(std::string_view line, float size);
+  float width_of(std::string_view line, float size) {
+    std::size_t width = 0;
+    for (std::size_t at = 0; at < line.size();) width += font_.width(next_character(line, at));
+    return static_cast<float>(width) * size / 1000;
+  }
   /// Returns the text in pieces, each at most `room` wide, that end at blanks.
   std::vector<std::string> wrapped(std::string_view text, float size, float room);
   /// Adds the only picture of the document. @returns its operators
@@ -68,7 +104,10 @@ class TaggedPdf {
     std::size_t parents = 0;
   };
 
-  std::size_t reserve();
+  std::size_t reserve() {
+    places_.emplace_back();
+    return places_.size() - 1;
+  }
   void put(std::size_t number, std::string_view object);
   void put_stream(std::size_t number, const std::string& entries, std::string_view bytes,
                   bool is_packed = false);

@@ -1,10 +1,7 @@
 #pragma once
 
 #include "base/length.hpp"
-#include "base/result.hpp"
-#include "formats/dfq/fields.hpp"
 #include "formats/dfq/lines.hpp"
-#include "formats/sheet/text_encoding.hpp"
 
 namespace fitgauge::aqdef {
 
@@ -20,8 +17,10 @@ class FieldList {
  public:
   /// Returns null if the field is absent or empty.
   const Described* find(int number) const;
-  std::string_view text(int number) const;
-  const std::vector<Described>& all() const { return fields_; }
+  std::string_view text(int number) const {
+    const Described* const field = find(number);
+    return field == nullptr ? std::string_view() : std::string_view(field->text);
+  }
   /// @errors kMalformed: the field has a different text already.
   Result<void> add(const FieldLine& field, std::uint32_t line, std::string text);
 
@@ -55,14 +54,22 @@ class Description {
   Characteristic* characteristic(std::uint32_t index);
   const Characteristic* characteristic(std::uint32_t index) const;
 
-  /// Returns the field of a characteristic, else the field of all (`/0`). Null if both are absent
-  /// or empty.
-  const Described* find(const Characteristic& characteristic, int number) const;
-  std::string_view text(const Characteristic& characteristic, int number) const;
+  /// The field of a characteristic, else of all (`/0`). Null if both are absent or empty.
+  const Described* find(const Characteristic& characteristic, int number) const {
+    const Described* const own = characteristic.fields.find(number);
+    return own == nullptr ? all_characteristics_.find(number) : own;
+  }
+  std::string_view text(const Characteristic& characteristic, int number) const {
+    const Described* const field = find(characteristic, number);
+    return field == nullptr ? std::string_view() : std::string_view(field->text);
+  }
   /// Returns a text of the characteristic's part.
   std::string_view part_text(const Characteristic& characteristic, int number) const;
   /// Returns a text of a catalogue's entry.
-  std::string_view catalogue_text(int number, std::uint32_t entry) const;
+  std::string_view catalogue_text(int number, std::uint32_t entry) const {
+    const auto found = catalogues_.find({number, entry});
+    return found == catalogues_.end() ? std::string_view() : std::string_view(found->second);
+  }
 
   /// Returns the text in UTF-8. @errors kMalformed, without a place
   Result<std::string> decoded(std::string_view bytes) const;

@@ -11,9 +11,8 @@ constexpr std::string_view kNoValue =
     "256";  ///< of a characteristic that was not measured
 
 std::size_t characters_of(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 /// The first characters, whole.
@@ -43,9 +42,8 @@ std::optional<std::pair<std::string, std::string>> letters_and_grade(std::string
   std::size_t letters = 0;
   while (letters < name.size() && is_ascii_letter(name[letters])) ++letters;
   const std::string_view grade = name.substr(letters);
-  const bool is_grade =
-      !grade.empty() && grade.size() <= kMost && grade[0] != '0' &&
-      std::all_of(grade.begin(), grade.end(), [](char c) { return c >= '0' && c <= '9'; });
+  const bool is_grade = !grade.empty() && grade.size() <= kMost && grade[0] != '0' &&
+                        std::ranges::all_of(grade, [](char c) { return c >= '0' && c <= '9'; });
   if (letters == 0 || letters > kMost || !is_grade) return std::nullopt;
   return std::pair(std::string(name.substr(0, letters)), std::string(grade));
 }
@@ -62,8 +60,8 @@ bool is_ambiguous(std::string_view bytes) {
   while (!bytes.empty()) {
     const std::string_view text = bytes.substr(0, bytes.find_first_of("\r\n\x14\x0F"));
     bytes.remove_prefix(std::min(bytes.size(), text.size() + 1));
-    const bool is_ascii = std::all_of(text.begin(), text.end(),
-                                      [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    const bool is_ascii =
+        std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
     if (!is_ascii && is_utf8(text)) return true;
   }
   return false;
@@ -103,9 +101,8 @@ Result<void> check_text(int number, std::string_view text) {
   const FieldInfo* const info = field_info(number);
   const std::string name = info == nullptr ? fmt::format("K{:04}", number)
                                            : fmt::format("K{:04}, the {},", number, info->name);
-  const bool is_plain = std::none_of(text.begin(), text.end(), [](char c) {
-    return static_cast<unsigned char>(c) < 0x20 || c == '\x7F';
-  });
+  const bool is_plain = std::ranges::none_of(
+      text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == '\x7F'; });
   if (!is_plain) {
     return Error{ErrorCode::FieldInvalid,
                  fmt::format("{} cannot hold a line end or another control character", name)};
@@ -179,14 +176,13 @@ DfqWriter::Fields DfqWriter::value_fields(const OutgoingValue& value, const Comm
   const std::string guid = ascii_upper(guid_of(value.origin, value.number));
   if (carried(comment, k::kGuid).empty()) fields.emplace_back(k::kGuid, "{" + guid + "}");
   for (const CarriedField& field : comment.fields) {
-    const bool is_cell = std::find(kCells.begin(), kCells.end(), field.number) != kCells.end();
-    const bool is_there = std::any_of(fields.begin(), fields.end(), [&](const auto& other) {
-      return other.first == field.number;
-    });
+    const bool is_cell = std::ranges::find(kCells, field.number) != kCells.end();
+    const bool is_there =
+        std::ranges::any_of(fields, [&](const auto& other) { return other.first == field.number; });
     if (level_of(field.number) != Level::Value || is_cell || is_there) continue;
     fields.emplace_back(field.number, field.text);
   }
-  std::sort(fields.begin(), fields.end());
+  std::ranges::sort(fields);
   return fields;
 }
 
@@ -199,16 +195,10 @@ std::string DfqWriter::time_text(Timestamp time) const {
 
 std::string DfqWriter::entry(Catalogue& catalogue, std::string_view text) {
   if (text.empty()) return "0";  // as others write it, whose readers want a number
-  const auto found = std::find(catalogue.entries.begin(), catalogue.entries.end(), text);
+  const auto found = std::ranges::find(catalogue.entries, text);
   const auto place = found - catalogue.entries.begin();
   if (found == catalogue.entries.end()) catalogue.entries.emplace_back(text);
   return std::to_string(place + 1);
-}
-
-std::size_t DfqWriter::place_of_part(const Fields& fields) {
-  const auto [known, is_new] = known_parts_.try_emplace(fields, parts_.size());
-  if (is_new) parts_.push_back(fields);
-  return known->second;
 }
 
 std::size_t DfqWriter::place_of_characteristic(std::size_t part, const Fields& fields) {

@@ -1,10 +1,6 @@
 #pragma once
 
 #include "base/clock.hpp"
-#include "base/length.hpp"
-#include "base/result.hpp"
-#include "formats/dfq/description.hpp"
-#include "formats/dfq/fields.hpp"
 #include "formats/dfq/reader.hpp"
 #include "formats/sheet/time_zone.hpp"
 
@@ -79,7 +75,11 @@ class DfqWriter {
   Fields part_fields(const OutgoingValue& value, const Comment& comment) const;
   static Fields characteristic_fields(const OutgoingValue& value);
   static Fields value_fields(const OutgoingValue& value, const Comment& comment);
-  std::size_t place_of_part(const Fields& fields);
+  std::size_t place_of_part(const Fields& fields) {
+    const auto [known, is_new] = known_parts_.try_emplace(fields, parts_.size());
+    if (is_new) parts_.push_back(fields);
+    return known->second;
+  }
   std::size_t place_of_characteristic(std::size_t part, const Fields& fields);
   static std::string entry(Catalogue& catalogue, std::string_view text);
   std::string time_text(Timestamp time) const;

@@ -1,5 +1,3 @@
-#include "formats/dfq/fields.hpp"
-
 #include "formats/dfq/lines.hpp"
 
 namespace fitgauge::aqdef {
@@ -7,62 +5,13 @@ namespace {
 
 using enum FieldType;
 
-/// Types and lengths as public lists of the format have them; in ascending order.
 constexpr std::array kFields = {
-    FieldInfo{1, Number, 22, "measured value"},
-    FieldInfo{2, Integer, 5, "attribute"},
-    FieldInfo{4, Time, 0, "date and time"},
-    FieldInfo{5, List, 0, "events"},
-    FieldInfo{6, Text, 14, "batch number"},
-    FieldInfo{7, Integer, 10, "cavity number"},
-    FieldInfo{8, Integer, 10, "operator"},
-    FieldInfo{9, Text, 255, "text"},
-    FieldInfo{10, Integer, 10, "machine number"},
-    FieldInfo{11, List, 0, "process parameters"},
-    FieldInfo{12, Integer, 10, "gage number"},
-    FieldInfo{14, Text, 40, "part ident"},
-    FieldInfo{20, Integer, 5, "subgroup size"},
-    FieldInfo{21, Integer, 5, "number of errors"},
-    FieldInfo{53, Text, 20, "order number"},
-    FieldInfo{97, Text, 38, "GUID of the value"},
-    FieldInfo{100, Integer, 5, "number of characteristics"},
-    FieldInfo{1001, Text, 30, "part number"},
-    FieldInfo{1002, Text, 80, "part description"},
-    FieldInfo{1053, Text, 40, "contract"},
-    FieldInfo{1081, Text, 24, "machine number"},
-    FieldInfo{1082, Text, 40, "machine description"},
-    FieldInfo{1086, Text, 40, "operation"},
-    FieldInfo{1100, Text, 40, "area"},
-    FieldInfo{1303, Text, 40, "plant"},
-    FieldInfo{2001, Text, 20, "characteristic number"},
-    FieldInfo{2002, Text, 80, "characteristic description"},
-    FieldInfo{2004, Integer, 5, "characteristic type"},
-    FieldInfo{2022, Integer, 5, "decimal places"},
-    FieldInfo{2101, Number, 22, "nominal value"},
-    FieldInfo{2103, Text, 2, "tolerance class"},
-    FieldInfo{2104, Integer, 3, "tolerance grade"},
-    FieldInfo{2110, Number, 22, "lower limit"},
-    FieldInfo{2111, Number, 22, "upper limit"},
-    FieldInfo{2112, Number, 22, "lower allowance"},
-    FieldInfo{2113, Number, 22, "upper allowance"},
-    FieldInfo{2120, Integer, 3, "type of the lower limit"},
-    FieldInfo{2121, Integer, 3, "type of the upper limit"},
-    FieldInfo{2142, Text, 20, "unit"},
-    FieldInfo{2800, Text, 50, "name of user field 1"},
-    FieldInfo{2801, Text, 1, "type of user field 1"},
-    FieldInfo{2802, Text, 255, "text of user field 1"},
-    FieldInfo{4062, Text, 40, "machine of the catalogue"},
-    FieldInfo{4063, Text, 100, "description of a machine"},
-    FieldInfo{4072, Text, 40, "gage of the catalogue"},
-    FieldInfo{4073, Text, 80, "description of a gage"},
-    FieldInfo{4092, Text, 50, "operator of the catalogue"},
-    FieldInfo{4093, Text, 50, "first name of an operator"},
+#define FITGAUGE_FIELD(name, ...) FieldInfo{__VA_ARGS__},
+#include "formats/dfq/fields.inc"
+#undef FITGAUGE_FIELD
 };
 
-static_assert(std::is_sorted(kFields.begin(), kFields.end(),
-                             [](const FieldInfo& a, const FieldInfo& b) {
-                               return a.number < b.number;
-                             }));
+static_assert(std::ranges::is_sorted(kFields, {}, &FieldInfo::number));
 
 constexpr char kBar = '|';
 
@@ -107,10 +56,8 @@ Level level_of(int number) {
 }
 
 const FieldInfo* field_info(int number) {
-  const auto found =
-      std::lower_bound(kFields.begin(), kFields.end(), number,
-                       [](const FieldInfo& field, int wanted) { return field.number < wanted; });
-  return found != kFields.end() && found->number == number ? &*found : nullptr;
+  const auto* const found = std::ranges::lower_bound(kFields, number, {}, &FieldInfo::number);
+  return found != kFields.end() && found->number == number ? found : nullptr;
 }
 
 std::string format_comment(const Comment& comment) {

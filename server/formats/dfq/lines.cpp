@@ -22,8 +22,7 @@ constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 constexpr std::size_t kFieldName = 5;  ///< K0000
 
-/// Bytes of short lines that are kept at a time: few enough to be still in the cache when they are
-/// parsed.
+/// Bytes of short lines that are kept at a time: few enough to stay in the cache.
 constexpr std::size_t kPiece = std::size_t{1} << 18;
 
 /// A number of up to six digits from the front of a text.
@@ -153,11 +152,6 @@ bool Lines::next(Line& line) {
     }
     if (!trim(line.text).empty()) return true;
   }
-  return false;
-}
-
-bool Lines::fail(std::string_view what) {
-  failure_ = at_line(number_, what);
   return false;
 }
 

@@ -1,10 +1,56 @@
 #pragma once
 
 #include "base/result.hpp"
-#include "formats/dfq/fields.hpp"
 #include "formats/sheet/text_encoding.hpp"
 
 namespace fitgauge::aqdef {
+
+/// Code of file errors: only their text is used, never a response over HTTP.
+inline constexpr ErrorCode kMalformed = ErrorCode::CsvMalformed;
+
+/// The subject of a field of the format.
+enum class Level : std::uint8_t { File, Value, Part, Characteristic, Catalogue, Group, Other };
+
+enum class FieldType : std::uint8_t { Text, Integer, Number, Time, List };
+
+/// A field as the tables of the format have it.
+struct FieldInfo {
+  int number = 0;
+  FieldType type = FieldType::Text;
+  int longest = 0;  ///< characters; 0: the format names no bound
+  std::string_view name;
+};
+
+/// Returns the level of a number: K0001, K1xxx, K2xxx and so on.
+Level level_of(int number);
+
+/// Returns a field that is read or written here; null for others, which are stored unchanged.
+const FieldInfo* field_info(int number);
+
+/// Numbers of these fields.
+namespace k {
+#define FITGAUGE_FIELD(name, number, ...) inline constexpr int name = number;
+#include "formats/dfq/fields.inc"
+#undef FITGAUGE_FIELD
+}  // namespace k
+
+/// A field of a value or its part without a field in measurements.
+struct CarriedField {
+  int number = 0;
+  std::string text;
+
+  friend bool operator==(const CarriedField&, const CarriedField&) = default;
+};
+
+/// A comment with fields in it: `free text |K0097 {…}|K1001 4711|`. A bar in a field is doubled.
+struct Comment {
+  std::string text{};
+  std::vector<CarriedField> fields{};
+};
+
+std::string format_comment(const Comment& comment);
+/// Parses a comment; other forms are text.
+Comment parse_comment(std::string_view comment);
 
 /// Between the fields of a value, and between the values of a line.
 inline constexpr char kFieldSeparator = '\x14';
@@ -71,7 +117,10 @@ class Lines {
  private:
   /// Reads more of the input. @returns false at the end, and after a failure.
   bool fill();
-  bool fail(std::string_view what);
+  bool fail(std::string_view what) {
+    failure_ = at_line(number_, what);
+    return false;
+  }
 
   Read read_;
   std::string room_;

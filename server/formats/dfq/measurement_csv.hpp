@@ -1,8 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
-#include "formats/dfq/description.hpp"
-#include "formats/dfq/fields.hpp"
 #include "formats/dfq/reader.hpp"
 #include "formats/sheet/shop_csv.hpp"
 
@@ -36,8 +33,7 @@ class MeasurementCsv {
   /// is from.
   /// @returns false at the end. @errors kMalformed, TimeMalformed with the line
   Result<bool> append(std::string& rows, std::vector<std::uint32_t>& lines);
-  /// Checks the file after the last value. @errors kMalformed: counts do not agree, or there is no
-  /// value.
+  /// Checks the file after the last value. @errors kMalformed: counts differ, or there is no value.
   Result<void> check() const;
 
  private:

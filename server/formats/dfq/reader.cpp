@@ -7,7 +7,7 @@ namespace {
 
 /// Place of a field of a value between the separators; npos for any other.
 std::size_t place_of(int number) {
-  const auto* const found = std::find(kCells.begin(), kCells.end(), number);
+  const auto* const found = std::ranges::find(kCells, number);
   return found == kCells.end() ? std::string_view::npos
                                : static_cast<std::size_t>(found - kCells.begin());
 }
@@ -162,9 +162,8 @@ Result<void> Reader::add_values(const Lines::Line& line, ValueSet& set) {
 Result<bool> Reader::add_field(const FieldLine& field, const Lines::Line& line, ValueSet& set) {
   TRY(check_end(line, &field));
   const bool is_value = field.number == k::kValue || field.number == k::kSubgroupSize;
-  const auto* const of_field =
-      std::find_if(set.values.begin(), set.values.end(),
-                   [&](const Value& value) { return value.characteristic == field.index; });
+  const auto* const of_field = std::ranges::find_if(
+      set.values, [&](const Value& value) { return value.characteristic == field.index; });
   if (is_value) {
     if (field.index == 0) {
       return at_line(line.number, fmt::format("has K{:04} for all characteristics: write the "

@@ -1,8 +1,6 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "formats/dfq/description.hpp"
-#include "formats/dfq/lines.hpp"
 
 namespace fitgauge::aqdef {
 
@@ -11,8 +9,7 @@ inline constexpr std::array<int, 10> kCells = {
     k::kValue,  k::kAttribute, k::kTime,    k::kEvents,  k::kBatch,
     k::kCavity, k::kOperator,  k::kMachine, k::kProcess, k::kGauge};
 
-/// A value with the fields after it. Its texts are views of the file, valid until the next call of
-/// Reader::next.
+/// A value with the fields after it. Its texts are views, valid until the next Reader::next.
 struct Value {
   std::uint32_t characteristic = 0;
   std::uint32_t line = 0;
@@ -28,8 +25,7 @@ struct ValueField {
   std::string_view text;
 };
 
-/// A sequence of items. It keeps its memory when it is emptied, so that a line of values is written
-/// without a check for each.
+/// A sequence that keeps its memory when emptied: a line of values needs no check for each.
 template <class Thing>
 class Row {
  public:
@@ -76,8 +72,8 @@ struct ValueSet {
   std::string_view field(const Value& value, int number) const;
 };
 
-/// Reads a DFQ, or a DFD and then its DFX, in a bounded piece of memory. Not thread-safe; of no
-/// more use after an error.
+/// Reads a DFQ, or a DFD and then its DFX, in bounded memory. Not thread-safe; unusable after an
+/// error.
 class Reader {
  public:
   explicit Reader(Read read, sheet::Encoding encoding = sheet::Encoding::Detected)

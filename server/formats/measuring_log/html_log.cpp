@@ -20,9 +20,8 @@ std::string plain(std::string_view html) {
                                                                         {"&nbsp;", ' '}}};
   std::string text;
   while (!html.empty()) {
-    const auto entity = std::find_if(kEntities.begin(), kEntities.end(), [html](const auto& known) {
-      return html.starts_with(known.first);
-    });
+    const auto entity = std::ranges::find_if(
+        kEntities, [html](const auto& known) { return html.starts_with(known.first); });
     if (entity != kEntities.end()) {
       text += entity->second;
       html.remove_prefix(entity->first.size());
@@ -103,15 +102,116 @@ struct Head {
 class HtmlReader {
  public:
   explicit HtmlReader(std::string_view page) : page_(page) {}
-  Reading read() &&;
+
+  Reading read() && {
+    for (const Element& element : elements_of(page_)) {
+      take(element);
+      if (head_.cycle == 0 && element.name != "h1") break;
+    }
+    if (head_.cycle == 0) {
+      reading_.unread.push_back({1, "this page is not a log of a touch-probe cycle"});
+      return std::move(reading_);
+    }
+    // A section that is being written has no end tag yet.
+    const std::string_view tail = page_.substr(std::min(begins_, page_.size()));
+    if (is_inside_ && tail.find("</section>") == std::string_view::npos) {
+      reading_.is_unfinished = true;
+      return std::move(reading_);
+    }
+    end(page_.size());
+    if (reading_.logs.empty() && reading_.unread.empty()) {
+      reading_.unread.push_back(
+          {1, fmt::format("the page of cycle {} has no section", head_.cycle)});
+    }
+    return std::move(reading_);
+  }
 
  private:
-  void take(const Element& element);
-  void take_row(const Element& row);
-  void take_point_row(const std::string& label, const std::string& digits, std::size_t at);
-  void begin(const Element& heading);
-  void end(std::size_t at);
-  void spoil(std::size_t at, std::string why);
+  void take(const Element& element) {
+    const std::string lower = ascii_lower(trim(element.text));
+    if (element.name == "h1") {
+      head_.cycle = cycle_of_title(lower).value_or(0);
+    } else if (element.name == "h2") {
+      end(element.at);
+      begin(element);
+    } else if (element.name == "h3") {
+      axis_ = trim(element.text);
+    } else if (element.name == "p" && !is_inside_) {
+      if (const std::size_t colon = element.text.find(": ");
+          colon != std::string::npos && lower.find("program") != std::string::npos) {
+        head_.program = trim(std::string_view(element.text).substr(colon + 2));
+      }
+      if (lower.find("in inch") != std::string::npos) head_.inch = true;
+    } else if (element.name == "tr" && is_inside_) {
+      take_row(element);
+    }
+  }
+
+  void take_row(const Element& row) {
+    const auto cells = cells_of(row);
+    if (cells.size() < 2) return;
+    const std::string label = ascii_lower(cells.front());
+    if (log_.cycle == 444) return take_point_row(label, cells.back(), row.at);
+    if (cells.size() != 2) return;
+    log_.values.push_back({.name = axis_.empty() ? cells[0] : axis_ + ", " + cells[0],
+                           .is_length = false,
+                           .printed = cells[1]});
+  }
+
+  void take_point_row(const std::string& label, const std::string& digits, std::size_t at) {
+    LogValue& value = log_.values.front();
+    const bool is_actual = label == "actual" || label == "istwert" || label == "ist";
+    const bool is_upper = label.starts_with("upper") || label.starts_with("ober");
+    const bool is_lower = label.starts_with("lower") || label.starts_with("unter");
+    if (!is_actual && !is_upper && !is_lower) return;
+    const auto length = read_length(digits, log_.inch);
+    if (!length) return spoil(at, fmt::format("'{}' is not a length", digits));
+    if (is_actual) {
+      value.measured = *length;
+      value.printed = digits;
+      has_actual_ = true;
+    } else {
+      (is_upper ? value.upper : value.lower) = *length;
+    }
+  }
+
+  void begin(const Element& heading) {
+    is_inside_ = true;
+    is_spoiled_ = has_actual_ = false;
+    begins_ = heading.at;
+    axis_.clear();
+    log_ = {.cycle = head_.cycle,
+            .program = head_.program,
+            .time = time_of(trim(heading.text)),
+            .inch = head_.inch};
+    if (head_.cycle == 444) {
+      log_.values.push_back({.name = "Deviation along the surface normal", .role = Role::Shaft});
+      log_.values.front().nominal = Length();
+    }
+  }
+
+  void end(std::size_t at) {
+    if (!is_inside_) return;
+    is_inside_ = false;
+    log_.text = page_.substr(begins_, at - begins_);
+    const bool has_values = log_.cycle == 444 ? has_actual_ : !log_.values.empty();
+    if (!has_values) spoil(begins_, fmt::format("the log of cycle {} has no values", log_.cycle));
+    if (log_.cycle == 444 && has_actual_) {
+      const LogValue& value = log_.values.front();
+      if (value.upper.has_value() != value.lower.has_value()) {
+        spoil(begins_, "one limit of the point is missing");
+      }
+    }
+    if (!is_spoiled_) reading_.logs.push_back(std::move(log_));
+  }
+
+  void spoil(std::size_t at, std::string why) {
+    if (!is_spoiled_ && reading_.unread.size() < kMostUnread) {
+      reading_.unread.push_back({line_of(at), std::move(why)});
+    }
+    is_spoiled_ = true;
+  }
+
   std::size_t line_of(std::size_t at) const {
     return 1 + static_cast<std::size_t>(std::count(
                    page_.begin(), page_.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
@@ -127,114 +227,6 @@ class HtmlReader {
   std::string axis_;
   MeasuringLog log_;
 };
-
-void HtmlReader::spoil(std::size_t at, std::string why) {
-  if (!is_spoiled_ && reading_.unread.size() < kMostUnread) {
-    reading_.unread.push_back({line_of(at), std::move(why)});
-  }
-  is_spoiled_ = true;
-}
-
-void HtmlReader::begin(const Element& heading) {
-  is_inside_ = true;
-  is_spoiled_ = has_actual_ = false;
-  begins_ = heading.at;
-  axis_.clear();
-  log_ = {.cycle = head_.cycle,
-          .program = head_.program,
-          .time = time_of(trim(heading.text)),
-          .inch = head_.inch};
-  if (head_.cycle == 444) {
-    log_.values.push_back({.name = "Deviation along the surface normal", .role = Role::Shaft});
-    log_.values.front().nominal = Length();
-  }
-}
-
-void HtmlReader::end(std::size_t at) {
-  if (!is_inside_) return;
-  is_inside_ = false;
-  log_.text = page_.substr(begins_, at - begins_);
-  const bool has_values = log_.cycle == 444 ? has_actual_ : !log_.values.empty();
-  if (!has_values) spoil(begins_, fmt::format("the log of cycle {} has no values", log_.cycle));
-  if (log_.cycle == 444 && has_actual_) {
-    const LogValue& value = log_.values.front();
-    if (value.upper.has_value() != value.lower.has_value()) {
-      spoil(begins_, "one limit of the point is missing");
-    }
-  }
-  if (!is_spoiled_) reading_.logs.push_back(std::move(log_));
-}
-
-void HtmlReader::take_point_row(const std::string& label, const std::string& digits,
-                                std::size_t at) {
-  LogValue& value = log_.values.front();
-  const bool is_actual = label == "actual" || label == "istwert" || label == "ist";
-  const bool is_upper = label.starts_with("upper") || label.starts_with("ober");
-  const bool is_lower = label.starts_with("lower") || label.starts_with("unter");
-  if (!is_actual && !is_upper && !is_lower) return;
-  const auto length = read_length(digits, log_.inch);
-  if (!length) return spoil(at, fmt::format("'{}' is not a length", digits));
-  if (is_actual) {
-    value.measured = *length;
-    value.printed = digits;
-    has_actual_ = true;
-  } else {
-    (is_upper ? value.upper : value.lower) = *length;
-  }
-}
-
-void HtmlReader::take_row(const Element& row) {
-  const auto cells = cells_of(row);
-  if (cells.size() < 2) return;
-  const std::string label = ascii_lower(cells.front());
-  if (log_.cycle == 444) return take_point_row(label, cells.back(), row.at);
-  if (cells.size() != 2) return;
-  log_.values.push_back({.name = axis_.empty() ? cells[0] : axis_ + ", " + cells[0],
-                         .is_length = false,
-                         .printed = cells[1]});
-}
-
-void HtmlReader::take(const Element& element) {
-  const std::string lower = ascii_lower(trim(element.text));
-  if (element.name == "h1") {
-    head_.cycle = cycle_of_title(lower).value_or(0);
-  } else if (element.name == "h2") {
-    end(element.at);
-    begin(element);
-  } else if (element.name == "h3") {
-    axis_ = trim(element.text);
-  } else if (element.name == "p" && !is_inside_) {
-    if (const std::size_t colon = element.text.find(": ");
-        colon != std::string::npos && lower.find("program") != std::string::npos) {
-      head_.program = trim(std::string_view(element.text).substr(colon + 2));
-    }
-    if (lower.find("in inch") != std::string::npos) head_.inch = true;
-  } else if (element.name == "tr" && is_inside_) {
-    take_row(element);
-  }
-}
-
-Reading HtmlReader::read() && {
-  for (const Element& element : elements_of(page_)) {
-    take(element);
-    if (head_.cycle == 0 && element.name != "h1") break;
-  }
-  if (head_.cycle == 0) {
-    reading_.unread.push_back({1, "this page is not a log of a touch-probe cycle"});
-    return std::move(reading_);
-  }
-  // A section that is being written has no end tag yet.
-  const std::string_view tail = page_.substr(std::min(begins_, page_.size()));
-  if (is_inside_ && tail.find("</section>") == std::string_view::npos) {
-    reading_.is_unfinished = true;
-    return std::move(reading_);
-  }
-  end(page_.size());
-  if (reading_.logs.empty() && reading_.unread.empty()) {
-    reading_.unread.push_back({1, fmt::format("the page of cycle {} has no section", head_.cycle)});
-  }
-  return std::move(reading_);
-}
 
 }  // namespace
 

@@ -26,8 +26,7 @@ bool has(std::string_view text, std::string_view word) {
 
 template <std::size_t N>
 bool has_one(std::string_view text, const std::array<std::string_view, N>& words) {
-  return std::any_of(words.begin(), words.end(),
-                     [text](std::string_view word) { return has(text, word); });
+  return std::ranges::any_of(words, [text](std::string_view word) { return has(text, word); });
 }
 
 constexpr std::array<std::string_view, 2> kLog{"log", "protokoll"};
@@ -116,9 +115,9 @@ Role role_of(Quantity quantity, int cycle) {
 
 std::optional<sheet::WallTime> read_clock(std::string_view date, std::string_view time) {
   std::string text(date);
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '-' || c == '/'; }, '.');
-  const bool has_seconds = std::count(time.begin(), time.end(), ':') == 2;
+  std::ranges::replace_if(
+      text, [](char c) { return c == '-' || c == '/'; }, '.');
+  const bool has_seconds = std::ranges::count(time, ':') == 2;
   return has_seconds ? sheet::parse_wall_time(text.append(" ").append(time)) : std::nullopt;
 }
 

@@ -1,4 +1,4 @@
-#include "formats/measuring_log/pattern.hpp"
+#include "formats/measuring_log/measuring_log.hpp"
 
 #include <fmt/ranges.h>
 
@@ -22,7 +22,7 @@ Error invalid(std::size_t line, std::string_view what) {
 }  // namespace
 
 Result<void> Pattern::check_field(const std::string& name, std::size_t number) const {
-  if (std::find(kFields.begin(), kFields.end(), name) == kFields.end()) {
+  if (std::ranges::find(kFields, name) == kFields.end()) {
     return invalid(
         number, fmt::format("unknown field '{}'; use one of: {}", name, fmt::join(kFields, ", ")));
   }

@@ -30,19 +30,179 @@ bool is_rule(std::string_view line) {
 class TextReader {
  public:
   /// @param is_whole whether its line end is there; the cycle may still write the rest of it.
-  void take(std::string_view raw, std::size_t number, bool is_whole);
-  Reading finish() &&;
+  void take(std::string_view raw, std::size_t number, bool is_whole) {
+    const std::string_view line = trim(raw);
+    const std::string lower = ascii_lower(line);
+    if (is_inside_ && !is_whole && !ends_log(lower)) return;
+    if (const auto cycle = cycle_of_title(lower)) begin(*cycle);
+    if (is_inside_) {
+      log_.text += raw;
+      log_.text += '\n';
+    }
+    if (cycle_of_title(lower) || is_rule(line)) return;
+    if (!is_inside_) {
+      // The first line of a foreign text represents all of it.
+      if (!has_stray_)
+        reading_.unread.push_back({number, "this is not a log of a touch-probe cycle"});
+      has_stray_ = true;
+      return;
+    }
+    if (ends_log(lower)) return end();
+    take_line(line, lower, number);
+  }
+
+  Reading finish() && {
+    reading_.is_unfinished = is_inside_ && !is_spoiled_;
+    return std::move(reading_);
+  }
 
  private:
   using Entries = std::array<std::vector<Entry>, 6>;
 
-  void begin(int cycle);
-  void take_line(std::string_view line, std::string_view lower, std::size_t number);
-  void take_head(std::string_view label, std::string_view value, std::size_t number);
-  void end();
+  void begin(int cycle) {
+    if (is_inside_) {
+      spoil(0, fmt::format("the log of cycle {} has no end before the next one", log_.cycle));
+    }
+    is_inside_ = true;
+    is_spoiled_ = false;
+    log_ = MeasuringLog{.cycle = cycle};
+    date_.clear();
+    time_.clear();
+    section_ = Section::Head;
+    entries_ = Entries();
+    waiting_ = Entry();
+  }
+
+  void take_line(std::string_view line, std::string_view lower, std::size_t number) {
+    if (!waiting_.label.empty()) {
+      if (is_number(line)) {
+        waiting_.digits = line;
+        of(section_).push_back(std::exchange(waiting_, {}));
+        return;
+      }
+      return spoil(waiting_.line, fmt::format("'{}' has no number", waiting_.written));
+    }
+    // A label may have colons; a value with colons (a time or a path) is only in the head.
+    const bool is_head = section_ == Section::Head;
+    const std::size_t colon = is_head && !lower.starts_with("unit") && !lower.starts_with("type") &&
+                                      lower.find("0=mm") == std::string_view::npos &&
+                                      lower.find("0 = mm") == std::string_view::npos
+                                  ? line.find(':')
+                                  : line.rfind(':');
+    if (colon == std::string_view::npos) {
+      return spoil(number, fmt::format("'{}' is neither a title nor a value", line));
+    }
+    std::string_view label = trim(line.substr(0, colon));
+    const std::string_view value = trim(line.substr(colon + 1));
+    std::string_view key = trim(lower.substr(0, colon));
+    if (value.empty()) {
+      if (const auto opened = section_of(key)) {
+        section_ = *opened;
+        return;
+      }
+    }
+    // `Further measuring results: Measuring height: -5.0000`
+    if (const std::size_t inner = key.find(':'); inner != std::string_view::npos) {
+      if (const auto opened = section_of(key.substr(0, inner))) {
+        section_ = *opened;
+        label = trim(label.substr(inner + 1));
+        key = trim(key.substr(inner + 1));
+      }
+    }
+    if (section_ == Section::Head) return take_head(key, value, number);
+    if (of(section_).size() == kMostEntries) return spoil(number, "the log has too many values");
+    Entry entry{std::string(key), std::string(label), std::string(value), number};
+    if (value.empty()) {
+      waiting_ = std::move(entry);
+    } else if (is_number(value)) {
+      of(section_).push_back(std::move(entry));
+    } else if (section_ != Section::Further) {
+      spoil(number, fmt::format("'{}' is not a number", value));
+    }
+  }
+
+  void take_head(std::string_view label, std::string_view value, std::size_t number) {
+    if (label == "date" || label == "datum") {
+      date_ = value;
+      if (!read_clock(date_, "0:00:00")) spoil(number, fmt::format("'{}' is not a date", value));
+    } else if (label == "time" || label == "uhrzeit" || label == "zeit") {
+      time_ = value;
+      if (!read_clock("1.1.2000", time_))
+        spoil(number, fmt::format("'{}' is not a time of day", value));
+    } else if (label.find("program") != std::string_view::npos) {
+      log_.program = value;
+    } else if (label.find("inch") != std::string_view::npos) {
+      if (value != "0" && value != "1") spoil(number, fmt::format("'{}' is not a unit", value));
+      log_.inch = value == "1";
+    }
+  }
+
+  void end() {
+    is_inside_ = false;
+    for (const Entry& entry : of(Section::Actual)) {
+      LogValue value{.name = entry.written, .printed = entry.digits};
+      value.is_length = !is_angle(entry.label);
+      if (value.is_length) {
+        const auto length = read_length(entry.digits, log_.inch);
+        if (!length) spoil(entry.line, fmt::format("'{}' is not a length", entry.digits));
+        value.measured = length.value_or(Length());
+      }
+      log_.values.push_back(std::move(value));
+    }
+    match_limits();
+    if (log_.values.empty()) {
+      spoil(0, fmt::format("the log of cycle {} has no actual values", log_.cycle));
+    }
+    const std::size_t limits = of(Section::Limits).size();
+    const auto judged = std::ranges::count_if(
+        log_.values, [](const LogValue& value) { return value.upper.has_value(); });
+    if (limits != 2 * static_cast<std::size_t>(judged)) {
+      spoil(0, fmt::format("the log of cycle {} has limits of no actual value", log_.cycle));
+    }
+    log_.time = read_clock(date_, time_);
+    if (!is_spoiled_) reading_.logs.push_back(std::move(log_));
+  }
+
   /// The current log is unreadable; reports the first reason.
-  void spoil(std::size_t line, std::string why);
-  void match_limits();
+  void spoil(std::size_t line, std::string why) {
+    if (!is_spoiled_ && reading_.unread.size() < kMostUnread) {
+      reading_.unread.push_back({line, std::move(why)});
+    }
+    is_spoiled_ = true;
+  }
+
+  /// Assigns nominal values and limits to the measured values by the subjects of their labels.
+  void match_limits() {
+    for (std::size_t i = 0; i < log_.values.size(); ++i) {
+      LogValue& value = log_.values[i];
+      const Quantity quantity = quantity_of(of(Section::Actual)[i].label);
+      const auto same = [&](const Entry& entry) { return quantity_of(entry.label) == quantity; };
+      if (!value.is_length || std::ranges::count_if(of(Section::Actual), same) != 1) continue;
+      for (const Entry& entry : of(Section::Nominal)) {
+        if (!same(entry)) continue;
+        value.nominal = read_length(entry.digits, log_.inch);
+        if (!value.nominal)
+          return spoil(entry.line, fmt::format("'{}' is not a length", entry.digits));
+        value.name = name_of(quantity, log_.cycle);
+        value.role = role_of(quantity, log_.cycle);
+      }
+      for (const Entry& entry : of(Section::Limits)) {
+        if (!same(entry)) continue;
+        const auto bound = bound_of(entry.label);
+        const auto length = read_length(entry.digits, log_.inch);
+        if (!bound || !length) {
+          return spoil(entry.line, fmt::format("'{}' is an unknown limit", entry.written));
+        }
+        (*bound == Bound::Upper ? value.upper : value.lower) = length;
+      }
+      if (value.upper.has_value() != value.lower.has_value() ||
+          (value.upper && (!value.nominal || *value.upper < *value.lower))) {
+        return spoil(of(Section::Actual)[i].line,
+                     fmt::format("'{}' has limits without a value", value.name));
+      }
+    }
+  }
+
   std::vector<Entry>& of(Section section) { return entries_.at(static_cast<std::size_t>(section)); }
 
   Reading reading_;
@@ -56,178 +216,6 @@ class TextReader {
   Entries entries_;
   Entry waiting_;  ///< a label with its number in the next line
 };
-
-void TextReader::begin(int cycle) {
-  if (is_inside_) {
-    spoil(0, fmt::format("the log of cycle {} has no end before the next one", log_.cycle));
-  }
-  is_inside_ = true;
-  is_spoiled_ = false;
-  log_ = MeasuringLog{.cycle = cycle};
-  date_.clear();
-  time_.clear();
-  section_ = Section::Head;
-  entries_ = Entries();
-  waiting_ = Entry();
-}
-
-void TextReader::spoil(std::size_t line, std::string why) {
-  if (!is_spoiled_ && reading_.unread.size() < kMostUnread) {
-    reading_.unread.push_back({line, std::move(why)});
-  }
-  is_spoiled_ = true;
-}
-
-void TextReader::take(std::string_view raw, std::size_t number, bool is_whole) {
-  const std::string_view line = trim(raw);
-  const std::string lower = ascii_lower(line);
-  if (is_inside_ && !is_whole && !ends_log(lower)) return;
-  if (const auto cycle = cycle_of_title(lower)) begin(*cycle);
-  if (is_inside_) {
-    log_.text += raw;
-    log_.text += '\n';
-  }
-  if (cycle_of_title(lower) || is_rule(line)) return;
-  if (!is_inside_) {
-    // The first line of a foreign text represents all of it.
-    if (!has_stray_)
-      reading_.unread.push_back({number, "this is not a log of a touch-probe cycle"});
-    has_stray_ = true;
-    return;
-  }
-  if (ends_log(lower)) return end();
-  take_line(line, lower, number);
-}
-
-void TextReader::take_line(std::string_view line, std::string_view lower, std::size_t number) {
-  if (!waiting_.label.empty()) {
-    if (is_number(line)) {
-      waiting_.digits = line;
-      of(section_).push_back(std::exchange(waiting_, {}));
-      return;
-    }
-    return spoil(waiting_.line, fmt::format("'{}' has no number", waiting_.written));
-  }
-  // A label may have colons; a value with colons (a time or a path) is only in the head.
-  const bool is_head = section_ == Section::Head;
-  const std::size_t colon = is_head && !lower.starts_with("unit") && !lower.starts_with("type") &&
-                                    lower.find("0=mm") == std::string_view::npos &&
-                                    lower.find("0 = mm") == std::string_view::npos
-                                ? line.find(':')
-                                : line.rfind(':');
-  if (colon == std::string_view::npos) {
-    return spoil(number, fmt::format("'{}' is neither a title nor a value", line));
-  }
-  std::string_view label = trim(line.substr(0, colon));
-  const std::string_view value = trim(line.substr(colon + 1));
-  std::string_view key = trim(lower.substr(0, colon));
-  if (value.empty()) {
-    if (const auto opened = section_of(key)) {
-      section_ = *opened;
-      return;
-    }
-  }
-  // `Further measuring results: Measuring height: -5.0000`
-  if (const std::size_t inner = key.find(':'); inner != std::string_view::npos) {
-    if (const auto opened = section_of(key.substr(0, inner))) {
-      section_ = *opened;
-      label = trim(label.substr(inner + 1));
-      key = trim(key.substr(inner + 1));
-    }
-  }
-  if (section_ == Section::Head) return take_head(key, value, number);
-  if (of(section_).size() == kMostEntries) return spoil(number, "the log has too many values");
-  Entry entry{std::string(key), std::string(label), std::string(value), number};
-  if (value.empty()) {
-    waiting_ = std::move(entry);
-  } else if (is_number(value)) {
-    of(section_).push_back(std::move(entry));
-  } else if (section_ != Section::Further) {
-    spoil(number, fmt::format("'{}' is not a number", value));
-  }
-}
-
-void TextReader::take_head(std::string_view label, std::string_view value, std::size_t number) {
-  if (label == "date" || label == "datum") {
-    date_ = value;
-    if (!read_clock(date_, "0:00:00")) spoil(number, fmt::format("'{}' is not a date", value));
-  } else if (label == "time" || label == "uhrzeit" || label == "zeit") {
-    time_ = value;
-    if (!read_clock("1.1.2000", time_))
-      spoil(number, fmt::format("'{}' is not a time of day", value));
-  } else if (label.find("program") != std::string_view::npos) {
-    log_.program = value;
-  } else if (label.find("inch") != std::string_view::npos) {
-    if (value != "0" && value != "1") spoil(number, fmt::format("'{}' is not a unit", value));
-    log_.inch = value == "1";
-  }
-}
-
-/// Assigns nominal values and limits to the measured values by the subjects of their labels.
-void TextReader::match_limits() {
-  for (std::size_t i = 0; i < log_.values.size(); ++i) {
-    LogValue& value = log_.values[i];
-    const Quantity quantity = quantity_of(of(Section::Actual)[i].label);
-    const auto same = [&](const Entry& entry) { return quantity_of(entry.label) == quantity; };
-    if (!value.is_length ||
-        std::count_if(of(Section::Actual).begin(), of(Section::Actual).end(), same) != 1) {
-      continue;
-    }
-    for (const Entry& entry : of(Section::Nominal)) {
-      if (!same(entry)) continue;
-      value.nominal = read_length(entry.digits, log_.inch);
-      if (!value.nominal)
-        return spoil(entry.line, fmt::format("'{}' is not a length", entry.digits));
-      value.name = name_of(quantity, log_.cycle);
-      value.role = role_of(quantity, log_.cycle);
-    }
-    for (const Entry& entry : of(Section::Limits)) {
-      if (!same(entry)) continue;
-      const auto bound = bound_of(entry.label);
-      const auto length = read_length(entry.digits, log_.inch);
-      if (!bound || !length) {
-        return spoil(entry.line, fmt::format("'{}' is an unknown limit", entry.written));
-      }
-      (*bound == Bound::Upper ? value.upper : value.lower) = length;
-    }
-    if (value.upper.has_value() != value.lower.has_value() ||
-        (value.upper && (!value.nominal || *value.upper < *value.lower))) {
-      return spoil(of(Section::Actual)[i].line,
-                   fmt::format("'{}' has limits without a value", value.name));
-    }
-  }
-}
-
-void TextReader::end() {
-  is_inside_ = false;
-  for (const Entry& entry : of(Section::Actual)) {
-    LogValue value{.name = entry.written, .printed = entry.digits};
-    value.is_length = !is_angle(entry.label);
-    if (value.is_length) {
-      const auto length = read_length(entry.digits, log_.inch);
-      if (!length) spoil(entry.line, fmt::format("'{}' is not a length", entry.digits));
-      value.measured = length.value_or(Length());
-    }
-    log_.values.push_back(std::move(value));
-  }
-  match_limits();
-  if (log_.values.empty()) {
-    spoil(0, fmt::format("the log of cycle {} has no actual values", log_.cycle));
-  }
-  const std::size_t limits = of(Section::Limits).size();
-  const auto judged = std::count_if(log_.values.begin(), log_.values.end(),
-                                    [](const LogValue& value) { return value.upper.has_value(); });
-  if (limits != 2 * static_cast<std::size_t>(judged)) {
-    spoil(0, fmt::format("the log of cycle {} has limits of no actual value", log_.cycle));
-  }
-  log_.time = read_clock(date_, time_);
-  if (!is_spoiled_) reading_.logs.push_back(std::move(log_));
-}
-
-Reading TextReader::finish() && {
-  reading_.is_unfinished = is_inside_ && !is_spoiled_;
-  return std::move(reading_);
-}
 
 }  // namespace
 

@@ -1,12 +1,8 @@
 #pragma once
 
-#include "base/clock.hpp"
-#include "base/length.hpp"
-#include "base/result.hpp"
-#include "formats/dfq/description.hpp"
-#include "formats/dfq/lines.hpp"
+#include "formats/qif/qif_definitions.hpp"
+#include "formats/qif/xml_reader.hpp"
 #include "formats/sheet/shop_csv.hpp"
-#include "metrology/gauging/gauge.hpp"
 
 namespace fitgauge::qif {
 
@@ -30,23 +26,51 @@ class QifRows {
  public:
   /// @param first, again two readers of one document: `first` is read first, then `again`
   /// @errors CsvMalformed with the line
-  static Result<QifRows> open(Read first, Read again, QifOptions options);
-  QifRows(QifRows&&) noexcept;
-  QifRows& operator=(QifRows&&) noexcept;
-  ~QifRows();
-
+  static Result<QifRows> open(Read first, Read again, QifOptions options) {
+    auto definitions = TRY(Definitions::read(std::move(first), options.length_unit));
+    return QifRows(std::move(definitions), std::move(again), std::move(options));
+  }
   std::string header() const;
   /// Appends the row of the next measurement, and the line of the document for each of its lines.
   /// @returns false at the end. @errors CsvMalformed with the line
   Result<bool> append(std::string& rows, std::vector<std::uint32_t>& lines);
   /// Checks after the last value. @errors CsvMalformed: there was no value.
-  Result<void> check() const;
+  Result<void> check() const {
+    if (rows_ > 0) return {};
+    return Error{aqdef::kMalformed, "the document has no measured size"};
+  }
 
  private:
-  class Converter;
-  explicit QifRows(std::unique_ptr<Converter> converter);
+  QifRows(Definitions definitions, Read document, QifOptions options)
+      : definitions_(std::move(definitions)),
+        options_(std::move(options)),
+        reader_(std::move(document)) {}
 
-  std::unique_ptr<Converter> converter_;
+  /// @returns whether there is a row.
+  Result<bool> read_row(const Element& element, std::uint32_t line);
+  /// Returns why it is not a measurement; empty if it is one.
+  std::string reason_against(const Element& element, const Definitions::Item& item) const;
+  /// @pre reason_against() found none
+  Result<void> read_tolerance(const Definitions::Item& item, std::uint32_t line);
+  Result<void> read_value(const Element& element, std::uint32_t line);
+  Result<void> read_time(const Element& element, std::uint32_t line);
+  Result<Length> length(std::string_view what, const std::string& text, std::uint32_t line) const;
+  Result<std::optional<Length>> limit(const std::string& text, Length from, std::string_view what,
+                                      std::uint32_t line) const {
+    if (text.empty()) return std::optional<Length>();
+    const auto read = TRY(length(what, text, line));
+    return std::optional(from + read);
+  }
+  /// If nothing more specific is known.
+  void fill(std::size_t place, std::string_view text) {
+    if (fields_.at(place).empty()) fields_.at(place) = text;
+  }
+
+  Definitions definitions_;
+  QifOptions options_;
+  XmlReader reader_;
+  Fields fields_{};
+  std::size_t rows_ = 0;
 };
 
 /// Word of CharacteristicStatusEnum.
@@ -87,7 +111,11 @@ class QifWriter {
   /// Returns the element QIFDocument, the begin of the document. @pre !is_empty()
   std::string element() const;
   /// The whole file.
-  std::string text() const;
+  std::string text() const {
+    std::string out = element();
+    out.insert(0, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    return out;
+  }
 
  private:
   struct Part {

@@ -1,11 +1,5 @@
 #include "formats/qif/qif.hpp"
 
-#include "base/csv.hpp"
-#include "base/text.hpp"
-#include "formats/qif/qif_definitions.hpp"
-#include "formats/qif/xml_reader.hpp"
-#include "formats/sheet/record_reader.hpp"
-
 namespace fitgauge::qif {
 namespace {
 
@@ -31,43 +25,8 @@ std::string_view quantity_of(std::string_view kind, bool has_feature) {
 
 }  // namespace
 
-/// One document on its way into rows.
-class QifRows::Converter {
- public:
-  Converter(Definitions definitions, Read document, QifOptions options)
-      : definitions_(std::move(definitions)),
-        options_(std::move(options)),
-        reader_(std::move(document)) {}
-
-  Result<bool> append(std::string& out, std::vector<std::uint32_t>& lines);
-  bool has_rows() const { return rows_ > 0; }
-
- private:
-  /// @returns whether there is a row.
-  Result<bool> read_row(const Element& element, std::uint32_t line);
-  /// Returns why it is not a measurement; empty if it is one.
-  std::string reason_against(const Element& element, const Definitions::Item& item) const;
-  /// @pre reason_against() found none
-  Result<void> read_tolerance(const Definitions::Item& item, std::uint32_t line);
-  Result<void> read_value(const Element& element, std::uint32_t line);
-  Result<void> read_time(const Element& element, std::uint32_t line);
-  Result<Length> length(std::string_view what, const std::string& text, std::uint32_t line) const;
-  Result<std::optional<Length>> limit(const std::string& text, Length from, std::string_view what,
-                                      std::uint32_t line) const;
-  /// If nothing more specific is known.
-  void fill(std::size_t place, std::string_view text) {
-    if (fields_.at(place).empty()) fields_.at(place) = text;
-  }
-
-  const Definitions definitions_;
-  const QifOptions options_;
-  XmlReader reader_;
-  Fields fields_{};
-  std::size_t rows_ = 0;
-};
-
-Result<Length> QifRows::Converter::length(std::string_view what, const std::string& text,
-                                          std::uint32_t line) const {
+Result<Length> QifRows::length(std::string_view what, const std::string& text,
+                               std::uint32_t line) const {
   if (!definitions_.unit()) {
     return aqdef::at_line(
         line, fmt::format("has lengths without a known unit in FileUnits ('{}'): set length_unit",
@@ -79,15 +38,7 @@ Result<Length> QifRows::Converter::length(std::string_view what, const std::stri
                                           first_characters(text, 40)));
 }
 
-Result<std::optional<Length>> QifRows::Converter::limit(const std::string& text, Length from,
-                                                        std::string_view what,
-                                                        std::uint32_t line) const {
-  if (text.empty()) return std::optional<Length>();
-  const auto read = TRY(length(what, text, line));
-  return std::optional(from + read);
-}
-
-Result<void> QifRows::Converter::read_tolerance(const Definitions::Item& item, std::uint32_t line) {
+Result<void> QifRows::read_tolerance(const Definitions::Item& item, std::uint32_t line) {
   const auto* const nominal = definitions_.nominal(item.nominal);
   const auto* const definition = definitions_.definition(nominal->definition);
   fill(aqdef::kName, item.name);
@@ -121,7 +72,7 @@ Result<void> QifRows::Converter::read_tolerance(const Definitions::Item& item, s
   return {};
 }
 
-Result<void> QifRows::Converter::read_value(const Element& element, std::uint32_t line) {
+Result<void> QifRows::read_value(const Element& element, std::uint32_t line) {
   const auto values = element.find("Value");
   const std::string unit = values.front().attribute("linearUnit");
   if (!unit.empty() && unit != definitions_.unit_name()) {
@@ -138,18 +89,17 @@ Result<void> QifRows::Converter::read_value(const Element& element, std::uint32_
   return {};
 }
 
-Result<void> QifRows::Converter::read_time(const Element& element, std::uint32_t line) {
+Result<void> QifRows::read_time(const Element& element, std::uint32_t line) {
   auto instant = sheet::instant_text(element.text("TimeStamp"), options_.zone);
   if (!instant) return aqdef::at_line(line, instant.error().message);
   fields_[aqdef::kMeasuredAt] = *std::move(instant);
   return {};
 }
 
-std::string QifRows::Converter::reason_against(const Element& element,
-                                               const Definitions::Item& item) const {
+std::string QifRows::reason_against(const Element& element, const Definitions::Item& item) const {
   std::string kind = element.name();
   if (kind.ends_with(kEnding)) kind.resize(kind.size() - kEnding.size());
-  if (std::find(kSizes.begin(), kSizes.end(), kind) == kSizes.end()) {
+  if (std::ranges::find(kSizes, kind) == kSizes.end()) {
     return fmt::format("has a {}, which is not a measurement",
                        first_characters(element.name(), 60));
   }
@@ -164,7 +114,7 @@ std::string QifRows::Converter::reason_against(const Element& element,
   return is_toleranced ? "" : "measures a characteristic without a tolerance";
 }
 
-Result<bool> QifRows::Converter::read_row(const Element& element, std::uint32_t line) {
+Result<bool> QifRows::read_row(const Element& element, std::uint32_t line) {
   const auto* const item = definitions_.item(element.text("CharacteristicItemId"));
   if (item == nullptr) {
     return aqdef::at_line(line, "measures a characteristic without an item in the document");
@@ -204,7 +154,7 @@ Result<bool> QifRows::Converter::read_row(const Element& element, std::uint32_t 
   return true;
 }
 
-Result<bool> QifRows::Converter::append(std::string& out, std::vector<std::uint32_t>& lines) {
+Result<bool> QifRows::append(std::string& out, std::vector<std::uint32_t>& lines) {
   for (;;) {
     const auto more = TRY(reader_.next());
     if (!more) return false;
@@ -226,28 +176,8 @@ Result<bool> QifRows::Converter::append(std::string& out, std::vector<std::uint3
   }
 }
 
-QifRows::QifRows(std::unique_ptr<Converter> converter) : converter_(std::move(converter)) {}
-QifRows::QifRows(QifRows&&) noexcept = default;
-QifRows& QifRows::operator=(QifRows&&) noexcept = default;
-QifRows::~QifRows() = default;
-
-Result<QifRows> QifRows::open(Read first, Read again, QifOptions options) {
-  auto definitions = TRY(Definitions::read(std::move(first), options.length_unit));
-  return QifRows(
-      std::make_unique<Converter>(std::move(definitions), std::move(again), std::move(options)));
-}
-
 std::string QifRows::header() const {
   return fmt::format("{}\n", fmt::join(sheet::kMeasurementFields, ";"));
-}
-
-Result<bool> QifRows::append(std::string& rows, std::vector<std::uint32_t>& lines) {
-  return converter_->append(rows, lines);
-}
-
-Result<void> QifRows::check() const {
-  if (converter_->has_rows()) return {};
-  return Error{aqdef::kMalformed, "the document has no measured size"};
 }
 
 bool is_qif(std::string_view file_name) { return ascii_lower(file_name).ends_with(".qif"); }

@@ -1,6 +1,5 @@
 #include "formats/qif/qif_definitions.hpp"
 
-#include "base/length.hpp"
 #include "formats/qif/xml_reader.hpp"
 
 namespace fitgauge::qif {
@@ -100,12 +99,6 @@ void Definitions::take(std::string_view list, const Element& element) {
   }
 }
 
-std::string_view Definitions::feature(const Item& item, const Nominal& nominal) const {
-  std::string of_nominal = nominal.feature;
-  if (of_nominal.empty()) of_nominal = text(feature_items_, item.part_feature);
-  return text(features_, std::string(text(feature_nominals_, of_nominal)));
-}
-
 Result<Definitions> Definitions::read(Read document, std::optional<aqdef::LengthUnit> fallback) {
   XmlReader reader(std::move(document));
   Definitions read;
@@ -120,7 +113,7 @@ Result<Definitions> Definitions::read(Read document, std::optional<aqdef::Length
                             fmt::format("begins {}, but must begin a QIFDocument of QIF 3 ({})",
                                         reader.name(), kNamespace));
     }
-    const auto list = std::find(kLists.begin(), kLists.end(), reader.parent());
+    const auto list = std::ranges::find(kLists, reader.parent());
     if (reader.parent() == "CharacteristicMeasurements") reader.pass_over();
     if (list == kLists.end()) continue;
     if (++count > kMostDefinitions) {

@@ -54,7 +54,11 @@ class Definitions {
   std::string_view part(const std::string& id) const { return text(parts_, id); }
   std::string_view device(const std::string& id) const { return text(devices_, id); }
   /// Returns `hole`, `shaft` or nothing, for the feature of a characteristic.
-  std::string_view feature(const Item& item, const Nominal& nominal) const;
+  std::string_view feature(const Item& item, const Nominal& nominal) const {
+    std::string of_nominal = nominal.feature;
+    if (of_nominal.empty()) of_nominal = text(feature_items_, item.part_feature);
+    return text(features_, std::string(text(feature_nominals_, of_nominal)));
+  }
   /// Returns the unit of the document or of the caller; none if neither has one.
   std::optional<aqdef::LengthUnit> unit() const { return unit_; }
   const std::string& unit_name() const { return unit_name_; }

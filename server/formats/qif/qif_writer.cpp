@@ -1,8 +1,5 @@
 #include "formats/qif/qif.hpp"
 
-#include "base/text.hpp"
-#include "formats/dfq/lines.hpp"
-
 namespace fitgauge::qif {
 namespace {
 
@@ -196,12 +193,6 @@ std::string QifWriter::element() const {
     out += "</ActualComponentSets>\n";
   }
   out += "</Results>\n</QIFDocument>\n";
-  return out;
-}
-
-std::string QifWriter::text() const {
-  std::string out = element();
-  out.insert(0, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
   return out;
 }
 

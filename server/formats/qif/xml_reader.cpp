@@ -81,17 +81,6 @@ void Element::find(std::string_view path, std::vector<Element>& found) const {
   }
 }
 
-std::vector<Element> Element::find(std::string_view path) const {
-  std::vector<Element> found;
-  find(path, found);
-  return found;
-}
-
-std::string Element::text(std::string_view path) const {
-  const auto found = find(path);
-  return found.empty() ? std::string() : found.front().own_text();
-}
-
 std::string Element::own_text() const {
   const Tree::Node& node = tree_->nodes[place_];
   const std::string_view all = tree_->text;
@@ -118,18 +107,106 @@ struct XmlReader::State {
     Attributes attributes{};  ///< those without a namespace
   };
 
-  explicit State(Read document);
+  explicit State(Read document)
+      : read(std::move(document)), parser(XML_ParserCreateNS(nullptr, kNamespaceEnd)) {
+    if (parser == nullptr) throw std::bad_alloc();
+    XML_SetUserData(parser, this);
+    XML_SetUnknownEncodingHandler(parser, characters_of, nullptr);
+    XML_SetElementHandler(
+        parser,
+        [](void* state, const char* name, const char** attributes) {
+          static_cast<State*>(state)->begin(name, attributes);
+        },
+        [](void* state, const char*) {
+          static_cast<State*>(state)->add(Kind::End, {});
+          --static_cast<State*>(state)->depth;
+        });
+    XML_SetCharacterDataHandler(parser, [](void* state, const char* text, int size) {
+      static_cast<State*>(state)->add(Kind::Text, {text, static_cast<std::size_t>(size)});
+    });
+    XML_SetStartDoctypeDeclHandler(
+        parser, [](void* state, const char*, const char*, const char*, int) {
+          static_cast<State*>(state)->fail(
+              "has a DOCTYPE, which is refused: replace its entities by their texts");
+        });
+  }
+
   State& operator=(State&&) = delete;  // neither copied nor moved
   ~State() { XML_ParserFree(parser); }
 
   /// The next event, until it is consumed; null at the end of the document.
-  Result<Event*> event();
+  Result<Event*> event() {
+    while (next == events.size()) {
+      events.clear();
+      next = 0;
+      if (error) return *error;
+      if (is_over) return nullptr;
+      feed();
+    }
+    return &events[next];
+  }
+
   Event& take_event() { return events[next++]; }
 
-  void fail(std::string what);
-  void feed();
-  void add(Kind kind, std::string_view text);
-  void begin(std::string_view name, const char** attributes);
+  void fail(std::string what) {
+    is_over = true;
+    if (error) return;
+    error = aqdef::at_line(static_cast<std::uint32_t>(XML_GetCurrentLineNumber(parser)), what);
+    XML_StopParser(parser, XML_FALSE);
+  }
+
+  /// Gives the parser the next piece, always a whole one, so that equal documents are read alike.
+  void feed() {
+    auto* const room = static_cast<char*>(XML_GetBuffer(parser, kPiece));
+    if (room == nullptr) throw std::bad_alloc();
+    const std::span<char> piece(room, kPiece);
+    std::size_t size = 0;
+    while (!is_over && size < piece.size()) {
+      const auto count = read(piece.subspan(size));
+      if (!count) return fail(count.error().message);
+      size += *count;
+      is_over = *count == 0;
+    }
+    fed += size;
+    if (XML_ParseBuffer(parser, static_cast<int>(size), is_over) == XML_STATUS_ERROR) {
+      fail(fmt::format("is not well-formed XML: {}", XML_ErrorString(XML_GetErrorCode(parser))));
+    } else if (fed > static_cast<std::uint64_t>(XML_GetCurrentByteIndex(parser)) + kLargestTag) {
+      fail(fmt::format("has a tag or a comment of more than {} KiB", kLargestTag >> 10));
+    }
+  }
+
+  void add(Kind kind, std::string_view text) {
+    if (error) return;
+    if (kind == Kind::Text && !events.empty() && events.back().kind == kind) {
+      events.back().text += text;
+      return;
+    }
+    events.push_back({.kind = kind,
+                      .line = static_cast<std::uint32_t>(XML_GetCurrentLineNumber(parser)),
+                      .at = static_cast<std::uint64_t>(XML_GetCurrentByteIndex(parser)),
+                      .text = std::string(text)});
+  }
+
+  void begin(std::string_view name, const char** attributes) {
+    if (++depth > kDeepest)
+      fail(fmt::format("has more than {} elements inside each other", kDeepest));
+    const std::size_t end = name.find(kNamespaceEnd);
+    add(Kind::Begin, name.substr(end + 1));
+    if (error) return;
+    Event& event = events.back();
+    if (end != std::string_view::npos) event.name_space = name.substr(0, end);
+    std::size_t count = 0;
+    for (; *attributes != nullptr; attributes += 2) {
+      if (++count > kMostAttributes) {
+        events.pop_back();
+        fail(fmt::format("has more than {} attributes", kMostAttributes));
+        return;
+      }
+      if (std::string_view(*attributes).find(kNamespaceEnd) == std::string_view::npos) {
+        event.attributes.emplace_back(attributes[0], attributes[1]);
+      }
+    }
+  }
 
   Read read;
   XML_Parser parser;
@@ -143,102 +220,8 @@ struct XmlReader::State {
   Element::Tree taken{};
 };
 
-XmlReader::State::State(Read document)
-    : read(std::move(document)), parser(XML_ParserCreateNS(nullptr, kNamespaceEnd)) {
-  if (parser == nullptr) throw std::bad_alloc();
-  XML_SetUserData(parser, this);
-  XML_SetUnknownEncodingHandler(parser, characters_of, nullptr);
-  XML_SetElementHandler(
-      parser,
-      [](void* state, const char* name, const char** attributes) {
-        static_cast<State*>(state)->begin(name, attributes);
-      },
-      [](void* state, const char*) {
-        static_cast<State*>(state)->add(Kind::End, {});
-        --static_cast<State*>(state)->depth;
-      });
-  XML_SetCharacterDataHandler(parser, [](void* state, const char* text, int size) {
-    static_cast<State*>(state)->add(Kind::Text, {text, static_cast<std::size_t>(size)});
-  });
-  XML_SetStartDoctypeDeclHandler(
-      parser, [](void* state, const char*, const char*, const char*, int) {
-        static_cast<State*>(state)->fail(
-            "has a DOCTYPE, which is refused: replace its entities by their texts");
-      });
-}
-
-void XmlReader::State::fail(std::string what) {
-  is_over = true;
-  if (error) return;
-  error = aqdef::at_line(static_cast<std::uint32_t>(XML_GetCurrentLineNumber(parser)), what);
-  XML_StopParser(parser, XML_FALSE);
-}
-
-void XmlReader::State::add(Kind kind, std::string_view text) {
-  if (error) return;
-  if (kind == Kind::Text && !events.empty() && events.back().kind == kind) {
-    events.back().text += text;
-    return;
-  }
-  events.push_back({.kind = kind,
-                    .line = static_cast<std::uint32_t>(XML_GetCurrentLineNumber(parser)),
-                    .at = static_cast<std::uint64_t>(XML_GetCurrentByteIndex(parser)),
-                    .text = std::string(text)});
-}
-
-void XmlReader::State::begin(std::string_view name, const char** attributes) {
-  if (++depth > kDeepest)
-    fail(fmt::format("has more than {} elements inside each other", kDeepest));
-  const std::size_t end = name.find(kNamespaceEnd);
-  add(Kind::Begin, name.substr(end + 1));
-  if (error) return;
-  Event& event = events.back();
-  if (end != std::string_view::npos) event.name_space = name.substr(0, end);
-  std::size_t count = 0;
-  for (; *attributes != nullptr; attributes += 2) {
-    if (++count > kMostAttributes) {
-      events.pop_back();
-      fail(fmt::format("has more than {} attributes", kMostAttributes));
-      return;
-    }
-    if (std::string_view(*attributes).find(kNamespaceEnd) == std::string_view::npos) {
-      event.attributes.emplace_back(attributes[0], attributes[1]);
-    }
-  }
-}
-
-/// Gives the parser the next piece, always a whole one, so that equal documents are read alike.
-void XmlReader::State::feed() {
-  auto* const room = static_cast<char*>(XML_GetBuffer(parser, kPiece));
-  if (room == nullptr) throw std::bad_alloc();
-  const std::span<char> piece(room, kPiece);
-  std::size_t size = 0;
-  while (!is_over && size < piece.size()) {
-    const auto count = read(piece.subspan(size));
-    if (!count) return fail(count.error().message);
-    size += *count;
-    is_over = *count == 0;
-  }
-  fed += size;
-  if (XML_ParseBuffer(parser, static_cast<int>(size), is_over) == XML_STATUS_ERROR) {
-    fail(fmt::format("is not well-formed XML: {}", XML_ErrorString(XML_GetErrorCode(parser))));
-  } else if (fed > static_cast<std::uint64_t>(XML_GetCurrentByteIndex(parser)) + kLargestTag) {
-    fail(fmt::format("has a tag or a comment of more than {} KiB", kLargestTag >> 10));
-  }
-}
-
-Result<XmlReader::State::Event*> XmlReader::State::event() {
-  while (next == events.size()) {
-    events.clear();
-    next = 0;
-    if (error) return *error;
-    if (is_over) return nullptr;
-    feed();
-  }
-  return &events[next];
-}
-
 XmlReader::XmlReader(Read read) : state_(std::make_unique<State>(std::move(read))) {}
+XmlReader::XmlReader(XmlReader&&) noexcept = default;
 XmlReader::~XmlReader() = default;
 
 Result<bool> XmlReader::next() {
@@ -258,10 +241,6 @@ Result<bool> XmlReader::next() {
     state_->begun = std::move(taken);
     return true;
   }
-}
-
-std::string_view XmlReader::parent() const {
-  return names_.size() < 2 ? std::string_view() : std::string_view(names_[names_.size() - 2]);
 }
 
 Result<Element> XmlReader::take() {

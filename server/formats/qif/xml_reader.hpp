@@ -14,14 +14,20 @@ class Element {
   const std::string& name() const;
   /// Its text without surrounding blanks; empty if it has none.
   std::string attribute(std::string_view name) const;
-  /// Text of the first element at the path `Tolerance/MaxValue` below, without surrounding blanks;
-  /// empty if it is absent.
-  std::string text(std::string_view path) const;
+  /// Trimmed text of the first element at the path `Tolerance/MaxValue` below; empty if absent.
+  std::string text(std::string_view path) const {
+    const auto found = find(path);
+    return found.empty() ? std::string() : found.front().own_text();
+  }
   /// An attribute of the element, without surrounding blanks.
   std::string own_text() const;
   bool has(std::string_view path) const { return !find(path).empty(); }
   /// All elements at the path.
-  std::vector<Element> find(std::string_view path) const;
+  std::vector<Element> find(std::string_view path) const {
+    std::vector<Element> found;
+    find(path, found);
+    return found;
+  }
   /// Returns names and values of AttributeStr and the other elements in `Attributes`, unchanged.
   std::vector<std::pair<std::string, std::string>> named_attributes() const;
 
@@ -45,7 +51,7 @@ class XmlReader {
   static constexpr std::size_t kDeepest = 256;
 
   explicit XmlReader(Read read);
-  XmlReader& operator=(XmlReader&&) = delete;  // neither copied nor moved
+  XmlReader(XmlReader&&) noexcept;
   ~XmlReader();
 
   /// Goes to the next element. @returns false at the end of the document.
@@ -53,7 +59,9 @@ class XmlReader {
   Result<bool> next();
   /// Its name, and the name of its parent; empty for the outermost.
   const std::string& name() const { return names_.back(); }
-  std::string_view parent() const;
+  std::string_view parent() const {
+    return names_.size() < 2 ? std::string_view() : std::string_view(names_[names_.size() - 2]);
+  }
   /// Depth of the element.
   std::size_t depth() const { return names_.size() - 1; }
   std::string_view name_space() const { return name_space_; }

@@ -1,17 +1,13 @@
 #include "formats/sheet/record_reader.hpp"
 
-#include "base/json/json_value.hpp"
-#include "base/json/json_writer.hpp"
-#include "base/text.hpp"
-
 namespace fitgauge::sheet {
 namespace {
 
 bool is_exported(const JsonValue& record) {
   constexpr std::array<std::string_view, 4> kMembers = {"basis", "id", "source", "verdict"};
   return record.is(JsonValue::Kind::Object) &&
-         std::all_of(kMembers.begin(), kMembers.end(),
-                     [&record](std::string_view name) { return record.find(name) != nullptr; });
+         std::ranges::all_of(
+             kMembers, [&record](std::string_view name) { return record.find(name) != nullptr; });
 }
 
 }  // namespace
@@ -50,12 +46,6 @@ Result<std::string_view> RecordReader::peek_line() {
     if (is_at_end_ || end + 1 < ahead.size()) return ahead.substr(0, end);
     TRY(fill());
   }
-}
-
-void RecordReader::pass_line(std::string_view line) {
-  rest_ = std::string_view(room_).substr(at_ + line.size());
-  if (take_line_end()) ++line_;
-  at_ = room_.size() - rest_.size();
 }
 
 Result<bool> RecordReader::next(Record& record) {
@@ -138,12 +128,6 @@ Result<void> RecordReader::read_cell(std::string& cell, Record& record) {
   return at_table_line(ErrorCode::CsvMalformed, record.line, "has text after a closing quote");
 }
 
-bool RecordReader::take_line_end() {
-  if (rest_.empty()) return false;
-  rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : 1);
-  return true;
-}
-
 Result<void> append_as_given(std::string& out, std::string_view line) {
   const auto record = parse_json(line);
   if (!record || !is_exported(*record)) {
@@ -174,11 +158,6 @@ Result<void> append_as_given(std::string& out, std::string_view line) {
 bool is_ndjson(std::string_view file_name) {
   const std::string name = ascii_lower(file_name);
   return name.ends_with(".ndjson") || name.ends_with(".jsonl");
-}
-
-Result<NdjsonRows> NdjsonRows::open(const Read& first, Read again, Encoding encoding) {
-  auto input = TRY(Utf8Input::open(first, std::move(again), encoding));
-  return NdjsonRows(std::move(input));
 }
 
 Result<bool> NdjsonRows::append(std::string& rows) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/csv.hpp"
-#include "base/result.hpp"
 #include "formats/sheet/text_encoding.hpp"
 #include "record/measurement_row_reader.hpp"
 
@@ -23,7 +22,7 @@ namespace fitgauge::aqdef {
 inline constexpr auto& kNames = sheet::kMeasurementFields;
 
 constexpr std::size_t place_of(std::string_view name) {
-  return static_cast<std::size_t>(std::find(kNames.begin(), kNames.end(), name) - kNames.begin());
+  return static_cast<std::size_t>(std::ranges::find(kNames, name) - kNames.begin());
 }
 
 inline constexpr std::size_t kMeasured = place_of("measured_mm");
@@ -87,13 +86,11 @@ struct Record {
   std::vector<std::string> cells{};
 
   bool is_empty() const {
-    return std::all_of(cells.begin(), cells.end(),
-                       [](const std::string& cell) { return bare(cell).empty(); });
+    return std::ranges::all_of(cells, [](const std::string& cell) { return bare(cell).empty(); });
   }
 };
 
-/// Reads the records of a text in order. Holds at most one record and a piece of the text. Unusable
-/// after an error.
+/// Reads the records of a text in order. Holds at most one and a piece. Unusable after an error.
 class RecordReader {
  public:
   static constexpr std::size_t kMostCells = 1000;
@@ -109,7 +106,11 @@ class RecordReader {
   /// @errors CsvMalformed, TextEncoding
   Result<std::string_view> peek_line();
   /// @param line what peek_line() has given
-  void pass_line(std::string_view line);
+  void pass_line(std::string_view line) {
+    rest_ = std::string_view(room_).substr(at_ + line.size());
+    if (take_line_end()) ++line_;
+    at_ = room_.size() - rest_.size();
+  }
   /// After peek_line().
   bool is_at_end() const { return is_at_end_ && at_ == room_.size(); }
 
@@ -120,7 +121,11 @@ class RecordReader {
   Result<void> fill();
   Result<void> read_record(Record& record);
   Result<void> read_cell(std::string& cell, Record& record);
-  bool take_line_end();
+  bool take_line_end() {
+    if (rest_.empty()) return false;
+    rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : 1);
+    return true;
+  }
 
   Utf8Input input_;
   std::string room_{};  ///< read, and consumed up to `at_`
@@ -131,8 +136,7 @@ class RecordReader {
   char separator_ = ';';
 };
 
-// Imports an export of fitgauge: ignores computed fields, and the limits of a class are read as the
-// class.
+// Imports an export of fitgauge: ignores computed fields; limits of a class become the class.
 
 /// Names of the fields of explicit limits in an export; a class of the tables implies them too.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kLimitsOfExport = {
@@ -160,7 +164,10 @@ bool is_ndjson(std::string_view file_name);
 class NdjsonRows {
  public:
   /// @param first and again as for Utf8Input. @errors TextEncoding
-  static Result<NdjsonRows> open(const Read& first, Read again, Encoding encoding);
+  static Result<NdjsonRows> open(const Read& first, Read again, Encoding encoding) {
+    auto input = TRY(Utf8Input::open(first, std::move(again), encoding));
+    return NdjsonRows(std::move(input));
+  }
 
   /// Appends the next line. @returns false at the end.
   /// @errors TextEncoding; CsvMalformed with the line in `where`.

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "base/result.hpp"
-#include "formats/sheet/text_encoding.hpp"
+#include "formats/sheet/record_reader.hpp"
 #include "formats/sheet/time_zone.hpp"
 
 namespace fitgauge::sheet {
@@ -19,8 +18,7 @@ struct ShopCsvOptions {
 };
 
 /// Converts a table of a gauge or a spreadsheet to CSV for /v1/measurements: UTF-8, `;` between the
-/// cells, field names, one output line for each input line, so that errors have the lines of the
-/// shop's file.
+/// cells, field names, a line for each input line, so that errors have the file's lines.
 ///
 /// Accepts `sep=;` before the header, `;`, a tab or `,` between the cells, empty columns and rows,
 /// surrounding blanks, names in upper or lower case, and local times. An exported list of
@@ -29,13 +27,9 @@ struct ShopCsvOptions {
 /// bounded memory; a row has at most 1 MiB. Unusable after an error.
 class ShopRows {
  public:
-  /// @param first, again two readers of one table: `first` is read first, only
-  /// to detect the encoding.
+  /// @param first, again two readers of one table: `first` only detects the encoding.
   /// @errors TextEncoding, CsvMalformed
   static Result<ShopRows> open(const Read& first, Read again, ShopCsvOptions options);
-  ShopRows(ShopRows&&) noexcept;
-  ShopRows& operator=(ShopRows&&) noexcept;
-  ~ShopRows();
 
   /// Returns the header, with an empty line for each line of the table before its header.
   const std::string& header() const { return header_; }
@@ -44,11 +38,29 @@ class ShopRows {
   Result<bool> append(std::string& rows);
 
  private:
-  class Converter;
-  ShopRows(std::unique_ptr<Converter> converter, std::string header);
+  ShopRows(Utf8Input input, ShopCsvOptions options)
+      : options_(std::move(options)), records_(std::move(input)) {}
 
-  std::unique_ptr<Converter> converter_;
+  /// @errors CsvMalformed, TextEncoding
+  Result<void> read_header();
+  /// The field of a column: empty if it is left out or unknown.
+  std::string field_of(std::string_view column) const;
+  std::string header_of(const Record& record);
+  /// @errors CsvMalformed: it is not of a gauge.
+  Result<void> check_export(const Record& record);
+  Result<void> convert_row(const Record& record, std::string& rows);
+  Result<std::string> measured_at(const Record& record, std::string_view text) const;
+  const std::string* cell(const Record& record, std::string_view field) const;
+
+  ShopCsvOptions options_;
+  RecordReader records_;
+  Record record_;
   std::string header_;
+  std::vector<std::string> fields_;   ///< of the columns; empty: left out
+  bool has_clock_ = false;            ///< date and time are in separate columns
+  std::optional<std::size_t> basis_;  ///< of an export: the columns that decide
+  std::optional<std::size_t> source_;
+  bool has_drawn_limits_ = true;  ///< the row of an export that is converted
 };
 
 }  // namespace fitgauge::sheet

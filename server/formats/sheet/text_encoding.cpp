@@ -163,11 +163,6 @@ Result<Encoding> detected_encoding(const Read& read) {
   }
 }
 
-Result<Utf8Input> Utf8Input::open(const Read& first, Read again, Encoding encoding) {
-  if (encoding == Encoding::Detected) encoding = TRY(detected_encoding(first));
-  return Utf8Input(std::move(again), encoding);
-}
-
 Result<void> Utf8Input::fill() {
   do {
     const auto count = TRY(read_on(read_, bytes_));

@@ -39,19 +39,21 @@ Result<std::string> to_utf8(std::string_view bytes, Encoding encoding);
 
 /// Returns the encoding of a text. It is the encoding of its mark. Without a mark it is UTF-16 if
 /// every second byte of the beginning is 0, UTF-8 if it is valid, and otherwise Windows-1252. Reads
-/// to its end.
+/// all.
 Result<Encoding> detected_encoding(const Read& read);
 
-/// A text of any size as UTF-8 without a byte-order mark, piece by piece. Not thread-safe;
-/// unusable after an error.
+/// A text of any size as UTF-8 without its mark, in pieces. Not thread-safe; unusable after an
+/// error.
 class Utf8Input {
  public:
-  /// @param first, again two readers of one text: `first` is read first, only to detect the
-  /// encoding.
-  static Result<Utf8Input> open(const Read& first, Read again, Encoding encoding);
+  /// @param first, again two readers of one text: `first` only detects the encoding.
+  static Result<Utf8Input> open(const Read& first, Read again, Encoding encoding) {
+    if (encoding == Encoding::Detected) encoding = TRY(detected_encoding(first));
+    return Utf8Input(std::move(again), encoding);
+  }
 
-  /// Appends the next piece. @returns false at the end. @errors TextEncoding with the byte, counted
-  /// after the byte-order mark.
+  /// Appends the next piece. @returns false at the end. @errors TextEncoding with the byte after a
+  /// mark.
   Result<bool> append(std::string& out);
 
  private:

@@ -13,13 +13,6 @@ constexpr std::size_t kLargestFile = 1 << 20;
 
 Error no_zone(std::string message) { return {ErrorCode::ConfigInvalid, std::move(message)}; }
 
-std::int64_t days_since_1970(std::int64_t year, int month, int day) {
-  using namespace std::chrono;
-  return sys_days(std::chrono::year(static_cast<int>(year)) / month / day)
-      .time_since_epoch()
-      .count();
-}
-
 /// Reads digits from the front: at least `least`, at most `most` of them.
 std::optional<std::int64_t> take_digits(std::string_view& text, std::size_t least,
                                         std::size_t most) {
@@ -143,8 +136,8 @@ std::optional<WallTime> parse_wall_time(std::string_view text) {
   const auto minute = take_digits(text, 1, 2);
   if (!minute || *hour > 23 || *minute > 59) return std::nullopt;
   WallTime time;
-  time.seconds = days_since_1970(year, static_cast<int>(*month), static_cast<int>(day)) * kDay +
-                 *hour * 3600 + *minute * 60;
+  time.seconds =
+      std::chrono::sys_days(date).time_since_epoch().count() * kDay + *hour * 3600 + *minute * 60;
   if (take(text, ':')) {
     const auto second = take_digits(text, 1, 2);
     if (!second || *second > 59) return std::nullopt;
@@ -163,7 +156,7 @@ std::optional<WallTime> parse_wall_time(std::string_view text) {
 Result<TimeZone> TimeZone::load(std::string_view name) {
   const bool is_name = !name.empty() && name.size() <= 100 && name.front() != '/' &&
                        name.find("..") == std::string_view::npos &&
-                       std::all_of(name.begin(), name.end(), [](char c) {
+                       std::ranges::all_of(name, [](char c) {
                          return is_ascii_alphanumeric(c) ||
                                 std::string_view("/_-+").find(c) != std::string_view::npos;
                        });
@@ -284,8 +277,7 @@ std::int64_t TimeZone::offset_at(std::int64_t utc) const {
 }
 
 Result<Timestamp> TimeZone::instant(const WallTime& time) const {
-  // The offsets before and after are enough: a zone is less than a day away, and does not change
-  // twice in two days.
+  // Two offsets are enough: a zone is less than a day away and changes once in two days.
   const std::int64_t before = offset_at(time.seconds - kDay);
   const std::int64_t after = offset_at(time.seconds + kDay);
   for (const std::int64_t offset : {before, after}) {
@@ -307,12 +299,6 @@ Result<std::string> instant_text(std::string_view text, const std::optional<Time
   const auto instant = zone->instant(*wall);
   if (!instant) return Error{ErrorCode::TimeMalformed, has + ", and " + instant.error().message};
   return format_rfc3339(*instant);
-}
-
-Timestamp TimeZone::shown(Timestamp time) const {
-  const std::int64_t utc = time.nanoseconds / kNanosecondsPerSecond -
-                           (time.nanoseconds % kNanosecondsPerSecond < 0 ? 1 : 0);
-  return {time.nanoseconds + offset_at(utc) * kNanosecondsPerSecond};
 }
 
 }  // namespace fitgauge::sheet

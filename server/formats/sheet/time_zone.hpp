@@ -14,9 +14,8 @@ struct WallTime {
 };
 
 /// `2026-11-20 08:00:00`, `2026-11-20T08:00`, `20.11.2026 08:00:00.25`, `20.11.2026/08:00:00`: the
-/// year in four digits, a fraction after a point or a comma, leading zeros optional.
-/// Nothing for any other text, such as one with an offset, or for a day that is not in the
-/// calendar.
+/// year in four digits, a fraction after a point or a comma, leading zeros optional. Nothing for
+/// another text, such as one with an offset, or a day that does not exist.
 std::optional<WallTime> parse_wall_time(std::string_view text);
 
 /// A zone of the IANA database that this machine has (/usr/share/zoneinfo). Immutable.
@@ -31,7 +30,11 @@ class TimeZone {
   /// @errors TimeMalformed: the clock has skipped it.
   Result<Timestamp> instant(const WallTime& time) const;
   /// Returns the local time at an instant, as if it were UTC.
-  Timestamp shown(Timestamp time) const;
+  Timestamp shown(Timestamp time) const {
+    const std::int64_t utc = time.nanoseconds / kNanosecondsPerSecond -
+                             (time.nanoseconds % kNanosecondsPerSecond < 0 ? 1 : 0);
+    return {time.nanoseconds + offset_at(utc) * kNanosecondsPerSecond};
+  }
 
  private:
   /// A change of the clock by the rule of a footer: `M3.5.0/2`.

@@ -1,8 +1,6 @@
 #include "formats/step/drawing.hpp"
 
 #include "base/digest.hpp"
-#include "base/text.hpp"
-#include "formats/step/faces.hpp"
 #include "formats/step/values.hpp"
 
 namespace fitgauge::step {
@@ -73,7 +71,7 @@ constexpr std::array kEntities = {
 /// `flatness tolerance`: an entity in words.
 std::string in_words(std::string_view entity) {
   std::string words = ascii_lower(entity);
-  std::replace(words.begin(), words.end(), '_', ' ');
+  std::ranges::replace(words, '_', ' ');
   return words;
 }
 
@@ -136,7 +134,7 @@ class Walker {
       each({relation.group},
            [&](auto id, const Entity& entity) { link(id, relation, entity.name); });
     }
-    for (auto& each : links_) std::stable_sort(each.begin(), each.end(), by_first);
+    for (auto& each : links_) std::ranges::stable_sort(each, by_first);
     for (const auto& [_, id] : links(Group::Face)) {
       if (links(Group::Surface).empty() || links(Group::Face).size() > kMostLooked) break;
       const auto face = is_open(id) ? std::nullopt : read_face(file_, id);
@@ -169,7 +167,7 @@ class Walker {
   template <class Each>
   void each(std::initializer_list<Group> groups, const Each& what) {
     for (std::size_t i = 0; i < kEntities.size(); ++i) {
-      if (std::find(groups.begin(), groups.end(), kEntities.at(i).group) == groups.end()) continue;
+      if (std::ranges::find(groups, kEntities.at(i).group) == groups.end()) continue;
       for (const std::uint32_t id : file_.of_name(i)) what(id, kEntities.at(i));
     }
   }
@@ -207,8 +205,7 @@ class Walker {
     }
     return name;
   }
-  /// Returns the name of its callout; without one, of the dimension; without both, of its entity in
-  /// words.
+  /// Returns the name of its callout, else of the dimension, else its entity in words.
   std::string name_of(std::uint32_t id, std::string_view entity) {
     std::string name = callout_of(id);
     if (name.empty()) name = text_in(file_, id, entity, 0);
@@ -254,8 +251,8 @@ class Walker {
     for (const auto& [_, each] : linked(Group::Value, id)) {
       for (const Record& representation : file_.records(each, id)) {
         const auto all = file_.parameters(representation.list);
-        const auto items = std::find_if(all.begin(), all.end(),
-                                        [](const Parameter& p) { return p.is(Kind::List); });
+        const auto items =
+            std::ranges::find_if(all, [](const Parameter& p) { return p.is(Kind::List); });
         if (items == all.end()) continue;
         for (const std::uint32_t item : references_in(file_, *items))
           take_value(item, each, found, upper, lower, size);
@@ -387,9 +384,9 @@ class Walker {
       auto own = record_of(file_, id, "DIMENSIONAL_SIZE");
       if (own.empty()) own = record_of(file_, id, entity.name);
       // The aspect and the name are adjacent, in a subtype not at its beginning.
-      const auto aspect = std::adjacent_find(
-          own.begin(), own.end(),
-          [](const auto& a, const auto& b) { return a.is(Kind::Reference) && b.is(Kind::Text); });
+      const auto aspect = std::ranges::adjacent_find(own, [](const auto& a, const auto& b) {
+        return a.is(Kind::Reference) && b.is(Kind::Text);
+      });
       if (aspect != own.end())
         take_aspect(aspect->id, ascii_lower(text_of(aspect[1])), found, size);
     }
@@ -403,7 +400,7 @@ class Walker {
                          word(size.quantity));
     }
     for (const std::string_view word : {"theoretical", "auxiliary", "basic", "reference"}) {
-      if (std::find(size.modifiers.begin(), size.modifiers.end(), word) != size.modifiers.end()) {
+      if (std::ranges::find(size.modifiers, word) != size.modifiers.end()) {
         return fmt::format("{} mm is {}: it has no limits", format_mm(size.nominal), word);
       }
     }

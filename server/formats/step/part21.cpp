@@ -140,7 +140,7 @@ class Part21Scanner {
       if (!record(name)) return false;
       if (name == "FILE_SCHEMA") {
         const std::string_view schemas = lexer_.from(begin);
-        has_schema = std::any_of(kSchemas.begin(), kSchemas.end(), [&](std::string_view known) {
+        has_schema = std::ranges::any_of(kSchemas, [&](std::string_view known) {
           return schemas.find(fmt::format("'{}", known)) != std::string_view::npos;
         });
         if (!has_schema) return lexer_.fail("FILE_SCHEMA is not AP203, AP214 or AP242");
@@ -150,8 +150,7 @@ class Part21Scanner {
     return lexer_.fail("ENDSEC expected");
   }
 
-  /// Reads the statements. Edition 3 has anchors and references to other files, which have no
-  /// sizes.
+  /// Reads anchors and references to other files (edition 3), which have no sizes.
   bool statements() {
     for (;;) {
       const std::size_t begin = lexer_.at();
@@ -235,10 +234,9 @@ Result<Part21> Part21::read(const FileText& text, std::span<const std::string_vi
   if (!scanner.scan()) return *scanner.error();
   auto& all = file.instances_;
   const auto by_id = [](const Instance& a, const Instance& b) { return a.id < b.id; };
-  if (!std::is_sorted(all.begin(), all.end(), by_id))
-    std::stable_sort(all.begin(), all.end(), by_id);
-  const auto twice = std::adjacent_find(
-      all.begin(), all.end(), [](const Instance& a, const Instance& b) { return a.id == b.id; });
+  if (!std::ranges::is_sorted(all, by_id)) std::ranges::stable_sort(all, by_id);
+  const auto twice = std::ranges::adjacent_find(
+      all, [](const Instance& a, const Instance& b) { return a.id == b.id; });
   if (twice != all.end()) {
     return error_at(text, std::next(twice)->at,
                     fmt::format("#{} occurs twice: export the file again", twice->id));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/mapped_file.hpp"
 #include "base/text.hpp"
 #include "formats/step/part21.hpp"
 
@@ -9,8 +8,7 @@ namespace fitgauge::step {
 /// An error at a place of the text, with its line.
 inline Error error_at(const FileText& text, std::size_t at, std::string_view message) {
   std::ptrdiff_t line = 1;
-  text.each_stretch(
-      at, [&line](std::string_view part) { line += std::count(part.begin(), part.end(), '\n'); });
+  text.each_stretch(at, [&line](std::string_view part) { line += std::ranges::count(part, '\n'); });
   return {ErrorCode::DrawingMalformed, fmt::format("line {}: {}", line, message),
           fmt::format("line {}", line)};
 }

@@ -1,4 +1,4 @@
-#include "formats/step/plan.hpp"
+#include "formats/step/drawing.hpp"
 
 namespace fitgauge::step {
 using api::JsonWriter;
@@ -13,7 +13,7 @@ constexpr std::array<std::string_view, 9> kDrawn = {"designation", "nominal_mm",
 constexpr std::size_t kLimits = 6;
 
 bool is_drawn(std::string_view member) {
-  return member == "name" || std::find(kDrawn.begin(), kDrawn.end(), member) != kDrawn.end();
+  return member == "name" || std::ranges::find(kDrawn, member) != kDrawn.end();
 }
 
 std::string limits_of(const JsonValue& characteristic) {
@@ -36,8 +36,8 @@ std::string limits_key(const JsonValue& characteristic) {
 
 void write_size(JsonWriter& json, const DrawnSize& size, const JsonValue* before) {
   const auto has_modifier = [&size](std::string_view word) {
-    return std::any_of(size.modifiers.begin(), size.modifiers.end(),
-                       [word](const std::string& m) { return m.starts_with(word); });
+    return std::ranges::any_of(size.modifiers,
+                               [word](const std::string& m) { return m.starts_with(word); });
   };
   json.begin_object().member("name", size.name);
   if (size.tolerance_class && has_modifier("envelope")) {
@@ -68,9 +68,8 @@ Result<DrawnPlan> plan_of(const Drawing& drawing, std::string_view part, const J
   const JsonValue& old = before != nullptr ? *before : kNone;
   const auto& known = old.member("characteristics").items;
   const auto find = [](const std::vector<JsonValue>& all, std::string_view name) {
-    const auto found = std::find_if(all.begin(), all.end(), [name](const JsonValue& one) {
-      return one.text_of("name") == name;
-    });
+    const auto found = std::ranges::find_if(
+        all, [name](const JsonValue& one) { return one.text_of("name") == name; });
     return found != all.end() ? &*found : nullptr;
   };
   if (drawing.sizes.empty()) {

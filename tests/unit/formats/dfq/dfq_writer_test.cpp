@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "formats/dfq/fields.hpp"
+#include "formats/dfq/lines.hpp"
 
 namespace fitgauge::aqdef {
 namespace {

@@ -1,4 +1,4 @@
-#include "formats/measuring_log/pattern.hpp"
+#include "formats/measuring_log/measuring_log.hpp"
 
 #include <doctest/doctest.h>
 

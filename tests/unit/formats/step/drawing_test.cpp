@@ -4,8 +4,6 @@
 
 #include <fstream>
 
-#include "formats/step/plan.hpp"
-
 namespace fitgauge::step {
 namespace {
 
