@@ -6,7 +6,7 @@
 #include "cli/json_object.hpp"
 #include "cli/local_files.hpp"
 #include "plant/lsv2/link/link_client.hpp"
-#include "plant/lsv2/link/requests.hpp"
+#include "plant/lsv2/link/messages.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -2,11 +2,9 @@
 
 #include <toml++/toml.h>
 
-#include <filesystem>
 #include <sstream>
 
 #include "base/regular_file.hpp"
-#include "base/text.hpp"
 #include "daemon/log.hpp"
 #include "service/log/revisions_text.hpp"
 
@@ -60,80 +58,71 @@ class ConnectionReader {
   ConnectionReader(const std::string& file, const toml::table& table)
       : file_(file), table_(table) {}
 
-  Result<Definition> read() const;
+  Result<Definition> read() const {
+    JsonValue body = json_of(table_);
+    const JsonValue* const name = body.find("name");
+    if (name == nullptr || !name->is(JsonValue::Kind::String)) {
+      return error(table_.get("name"), "name of a connection must be a text");
+    }
+    std::string named = name->text;
+    std::erase_if(body.members, [](const auto& member) { return member.first == "name"; });
+    TRY(load_patterns(body));
+    auto definition = connections::read_definition(std::move(named), body, {.all = true});
+    if (!definition) return errors(definition.error());
+    return definition;
+  }
 
  private:
   Error error(const toml::node* node, std::string_view message) const {
     const auto line = node == nullptr ? table_.source().begin.line : node->source().begin.line;
     return {ErrorCode::ConfigInvalid, fmt::format("{}:{}: {}", file_, line, message)};
   }
+
   /// Every field that cannot be accepted, each with its line.
-  Error errors(const Error& refused) const;
+  Error errors(const Error& refused) const {
+    if (refused.code == ErrorCode::PathMalformed) return error(table_.get("name"), refused.message);
+    if (refused.details.empty()) return error(nullptr, refused.message);
+    Error all{ErrorCode::ConfigInvalid, {}};
+    for (const Error& field : refused.details) {
+      const std::string_view place =
+          std::string_view(field.where).substr(field.where.empty() ? 0 : 1);
+      const toml::node* const node = table_.get(place.substr(0, place.find('/')));
+      all.message += (all.message.empty() ? "" : "\n") + error(node, field.message).message;
+    }
+    return all;
+  }
+
   /// The names of files with their contents.
-  Result<void> load_patterns(JsonValue& body) const;
+  Result<void> load_patterns(JsonValue& body) const {
+    for (auto& [key, list] : body.members) {
+      if (key != "patterns" || !list.is(JsonValue::Kind::Array)) continue;
+      for (JsonValue& item : list.items) {
+        if (!item.is(JsonValue::Kind::String)) {
+          return error(table_.get("patterns"), "patterns must be a list of texts");
+        }
+        const auto path = std::filesystem::path(file_).parent_path() / item.text;
+        auto content = read_regular(path);
+        if (!content) {
+          return error(table_.get("patterns"), fmt::format("cannot read the pattern file {}: {}",
+                                                           path.string(), content.error().message));
+        }
+        JsonValue pattern{.kind = JsonValue::Kind::Object};
+        pattern.members.emplace_back("file", text_value(item.text));
+        pattern.members.emplace_back("text", text_value(*std::move(content)));
+        item = std::move(pattern);
+      }
+    }
+    return {};
+  }
 
   const std::string& file_;
   const toml::table& table_;
 };
 
-Error ConnectionReader::errors(const Error& refused) const {
-  if (refused.code == ErrorCode::PathMalformed) return error(table_.get("name"), refused.message);
-  if (refused.details.empty()) return error(nullptr, refused.message);
-  Error all{ErrorCode::ConfigInvalid, {}};
-  for (const Error& field : refused.details) {
-    const std::string_view place =
-        std::string_view(field.where).substr(field.where.empty() ? 0 : 1);
-    const toml::node* const node = table_.get(place.substr(0, place.find('/')));
-    all.message += (all.message.empty() ? "" : "\n") + error(node, field.message).message;
-  }
-  return all;
-}
-
-Result<void> ConnectionReader::load_patterns(JsonValue& body) const {
-  for (auto& [key, list] : body.members) {
-    if (key != "patterns" || !list.is(JsonValue::Kind::Array)) continue;
-    for (JsonValue& item : list.items) {
-      if (!item.is(JsonValue::Kind::String)) {
-        return error(table_.get("patterns"), "patterns must be a list of texts");
-      }
-      const auto path = std::filesystem::path(file_).parent_path() / item.text;
-      auto content = read_regular(path);
-      if (!content) {
-        return error(table_.get("patterns"), fmt::format("cannot read the pattern file {}: {}",
-                                                         path.string(), content.error().message));
-      }
-      JsonValue pattern{.kind = JsonValue::Kind::Object};
-      pattern.members.emplace_back("file", text_value(item.text));
-      pattern.members.emplace_back("text", text_value(*std::move(content)));
-      item = std::move(pattern);
-    }
-  }
-  return {};
-}
-
-Result<Definition> ConnectionReader::read() const {
-  JsonValue body = json_of(table_);
-  const JsonValue* const name = body.find("name");
-  if (name == nullptr || !name->is(JsonValue::Kind::String)) {
-    return error(table_.get("name"), "name of a connection must be a text");
-  }
-  std::string named = name->text;
-  std::erase_if(body.members, [](const auto& member) { return member.first == "name"; });
-  TRY(load_patterns(body));
-  auto definition = connections::read_definition(std::move(named), body, {.all = true});
-  if (!definition) return errors(definition.error());
-  return definition;
-}
-
 constexpr std::chrono::seconds kPatienceAtStart{3};
 constexpr long kOk = 200;
 
-Error invalid_forwarding(std::string message) {
-  return {ErrorCode::ConfigInvalid, std::move(message)};
-}
-
-/// `centre.example:8286` of `https://centre.example:8286/`; empty if it is not the address of a
-/// centre.
+/// `centre.example:8286` of `https://centre.example:8286/`; empty if it is no centre's address.
 std::string_view authority_of(std::string_view url) {
   const std::size_t scheme = url.find("://");
   if (scheme == url.npos) return {};
@@ -147,7 +136,7 @@ bool is_this_machine(std::string_view authority) {
   const std::string_view host = authority.substr(0, authority.find(':'));
   const auto is_of_number = [](char c) { return (c >= '0' && c <= '9') || c == '.'; };
   return host == "localhost" ||
-         (host.starts_with("127.") && std::all_of(host.begin(), host.end(), is_of_number));
+         (host.starts_with("127.") && std::ranges::all_of(host, is_of_number));
 }
 
 std::string without_last_slash(std::string url) {
@@ -167,12 +156,11 @@ Result<std::vector<Definition>> read_connections(const std::string& path) {
   std::vector<Definition> definitions;
   if (path.empty()) return definitions;
   const auto invalid = [&path](auto line, std::string_view what) {
-    return Error{ErrorCode::ConfigInvalid, fmt::format("{}:{}: {}", path, line, what)};
+    return config_error(fmt::format("{}:{}: {}", path, line, what));
   };
   const auto text = read_regular(path);
   if (!text) {
-    return Error{ErrorCode::ConfigInvalid,
-                 fmt::format("cannot read {}: {}", path, text.error().message)};
+    return config_error(fmt::format("cannot read {}: {}", path, text.error().message));
   }
   toml::table file;
   try {
@@ -230,17 +218,17 @@ Result<void> check_forwarding(const Config& config) {
   const std::string& url = config.forward_to;
   if (url.empty()) {
     if (config.forward_key_file.empty() && config.forward_ca.empty()) return {};
-    return invalid_forwarding(
+    return config_error(
         "forward-key-file and forward-ca need forward-to, the address of the centre");
   }
   const std::string_view authority = authority_of(url);
   const bool is_plain = url.starts_with("http://");
   if (authority.empty() || !(is_plain || url.starts_with("https://"))) {
-    return invalid_forwarding(fmt::format(
+    return config_error(fmt::format(
         "forward-to must be https://host or https://host:port of a centre; got '{}'", url));
   }
   if (is_plain && !config.forward_insecure && !is_this_machine(authority)) {
-    return invalid_forwarding(
+    return config_error(
         fmt::format("forward-to {} would send the key and the measurements without encryption: use "
                     "https://, or set forward-insecure",
                     url));
@@ -248,7 +236,7 @@ Result<void> check_forwarding(const Config& config) {
   for (const std::string& file : {config.forward_key_file, config.forward_ca}) {
     if (file.empty()) continue;
     if (const auto opened = open_regular(file); !opened) {
-      return invalid_forwarding(fmt::format("cannot read {}: {}", file, opened.error().message));
+      return config_error(fmt::format("cannot read {}: {}", file, opened.error().message));
     }
   }
   return {};
@@ -273,7 +261,7 @@ std::optional<app::AtCentre> ask_centre(const Config& config, std::string_view d
 }
 
 std::unique_ptr<forwarder::Forwarder> start_forwarder(const Config& config, app::Application& app,
-                                                      Tell tell) {
+                                                      forwarder::Tell tell) {
   if (config.forward_to.empty()) return nullptr;
   return std::make_unique<forwarder::Forwarder>(
       app.outbox(), app.revision_intake(tell),

@@ -13,32 +13,26 @@ namespace fitgauge::daemon {
 /// to its folder. @errors ConfigInvalid with file, line and key.
 Result<std::vector<connections::Definition>> read_connections(const std::string& path);
 
-/// Starts the connections; they must be destroyed before `app`. @errors as read_connections; those
-/// of the storage.
+/// Starts the connections, to be destroyed before `app`. @errors as read_connections; of storage.
 Result<std::unique_ptr<connections::Connections>> start_connections(const Config& config,
                                                                     app::Application& app,
                                                                     const Clock& clock,
                                                                     const api::GaugesInUse& gauges);
 
 /// Whether the settings of forwarding go together.
-/// @errors ConfigInvalid: no address of a centre, http:// beyond this machine, a key that cannot be
-///   read.
+/// @errors ConfigInvalid: no centre's address, http:// beyond this machine, an unreadable key.
 Result<void> check_forwarding(const Config& config);
-
-/// Writes to the service log: the name of an event and a sentence.
-using Tell = std::function<void(std::string_view event, const std::string& detail)>;
 
 /// Returns the centre's state of a history; none without a response within some seconds.
 std::optional<app::AtCentre> ask_centre(const Config& config, std::string_view digits);
 
 /// Starts to forward the log to the centre; null when there is none.
 std::unique_ptr<forwarder::Forwarder> start_forwarder(const Config& config, app::Application& app,
-                                                      Tell tell);
+                                                      forwarder::Tell tell);
 /// Writes to the log of the service.
 void tell_log(std::string_view event, const std::string& detail);
 
-/// Writes the number and age of records that the centre does not have. @param forwarder may be
-/// null.
+/// Writes number and age of records that the centre lacks. @param forwarder may be null.
 void write_outbox_metrics(const forwarder::Forwarder* forwarder, const Clock& clock,
                           api::Exposition& out);
 

@@ -5,20 +5,13 @@
 
 #include <csignal>
 
-#include "api/resources.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/service/guard.hpp"
-#include "api/service/metrics.hpp"
 #include "api/wire/problem.hpp"
-#include "base/clock.hpp"
-#include "base/thread.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/log.hpp"
 #include "daemon/preflight.hpp"
 #include "daemon/service_metrics.hpp"
-#include "http/response.hpp"
-#include "plant/mtconnect/mtconnect_resource.hpp"
-#include "service/measurements/gauges_in_use.hpp"
 
 namespace fitgauge::daemon {
 namespace {
@@ -33,8 +26,8 @@ api::AuthMode auth_mode(const Config& config, const std::vector<http::ListenAddr
   if (config.auth == "open") return api::AuthMode::Open;
   if (config.auth == "read-open") return api::AuthMode::ReadOpen;
   if (config.auth == "keys") return api::AuthMode::Keys;
-  const bool loopback = std::all_of(addresses.begin(), addresses.end(),
-                                    [](const auto& address) { return address.is_loopback(); });
+  const bool loopback =
+      std::ranges::all_of(addresses, [](const auto& address) { return address.is_loopback(); });
   return loopback ? api::AuthMode::Open : api::AuthMode::ReadOpen;
 }
 
@@ -89,8 +82,7 @@ http::ServerHooks hooks(const api::Services& services, const api::Guard& guard,
   return hooks;
 }
 
-/// Returns when the service is to end. Looks at the clock each second, so that a jump is reported
-/// when it happens.
+/// Returns when the service is to end. Looks at the clock each second, to report a jump at once.
 void wait_for_end(http::Server& server, bool tls, const Clock& clock) {
   const sigset_t signals = waited_signals();
   constexpr timespec kSecond{.tv_sec = 1, .tv_nsec = 0};

@@ -1,10 +1,5 @@
 #include "plant/connections.hpp"
 
-#include "base/json/field_reader.hpp"
-#include "base/json/json_writer.hpp"
-#include "base/text.hpp"
-#include "plant/log_follower.hpp"
-#include "service/documents/document_service.hpp"
 #include "service/log/changes.hpp"
 
 namespace fitgauge::connections {
@@ -58,10 +53,9 @@ Error read_only(std::string_view name) {
 bool is_secret(std::string_view setting) { return setting == kSecrets || setting == kPassword; }
 
 Result<void> check_name(std::string_view name) {
-  const bool is_name =
-      !name.empty() && name.size() <= 63 && std::all_of(name.begin(), name.end(), [](char c) {
-        return is_ascii_alphanumeric(c) || c == '-' || c == '_';
-      });
+  const bool is_name = !name.empty() && name.size() <= 63 && std::ranges::all_of(name, [](char c) {
+    return is_ascii_alphanumeric(c) || c == '-' || c == '_';
+  });
   if (is_name) return {};
   return Error{ErrorCode::PathMalformed,
                "the name of a connection must have 1 to 63 letters, digits, - and _"};
@@ -149,7 +143,7 @@ Connections::~Connections() {
 
 void Connections::begin(Definition definition, bool is_read_only) {
   const std::string key = ascii_lower(definition.name);
-  auto worker = definition.settings->start(plant_);
+  auto worker = definition.settings.start(plant_);
   const std::lock_guard lock(mutex_);
   entries_.insert_or_assign(
       key, Entry{.known = {std::move(definition), is_read_only}, .worker = std::move(worker)});
@@ -193,10 +187,6 @@ std::optional<ConnectionState> Connections::state(std::string_view name) const {
   return state_of(found->second);
 }
 
-bool Connections::run(std::function<void()> work, bool is_test) {
-  return (is_test ? tests_ : changes_).submit(std::move(work)).has_value();
-}
-
 Result<bool> Connections::put(const std::string& name, std::string_view body,
                               const std::optional<std::string>& caller) {
   if (plant_.is_shared) {
@@ -220,7 +210,7 @@ Result<bool> Connections::put(const std::string& name, std::string_view body,
   auto json = TRY(parse_json(body));
   if (before) keep_secrets(json, before->definition);
   auto definition = TRY(read_definition(name, json, {.roots = plant_.folders}));
-  if (const FollowerOptions* const follower = definition.settings->follower()) {
+  if (const auto& follower = definition.settings.follower) {
     // Stores its start before it exists, so that it misses nothing after the response.
     if (!before) TRY(forget_progress(plant_.documents, name));
     TRY(begin_progress(*follower, plant_));
@@ -249,8 +239,8 @@ Result<void> Connections::replay(const std::string& name, std::string_view body)
   if (!found || found->definition.name != name) return unknown(name);
   const auto json = TRY(parse_json(body));
   const auto order = TRY(api::read_whole<ReplayOrder>(json));
-  const FollowerOptions* const follower = found->definition.settings->follower();
-  if (follower == nullptr) {
+  const auto& follower = found->definition.settings.follower;
+  if (!follower) {
     return Error{
         ErrorCode::RequestInvalid,
         fmt::format("the connection '{}' is incoming: only outgoing connections can replay", name)};
@@ -277,7 +267,7 @@ Result<ConnectionTest> Connections::test(const std::string& name) {
     under_test_.erase(name);
     tested_.notify_all();
   });
-  return found->definition.settings->test(plant_, stopping_.get_token());
+  return found->definition.settings.test(plant_, stopping_.get_token());
 }
 
 }  // namespace fitgauge::connections

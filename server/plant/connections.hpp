@@ -1,9 +1,6 @@
 #pragma once
 
 #include "api/resources.hpp"
-#include "base/json/json_value.hpp"
-#include "base/json/schema.hpp"
-#include "base/result.hpp"
 #include "base/worker_pool.hpp"
 #include "plant/kind.hpp"
 
@@ -15,7 +12,7 @@ struct Definition {
   std::string kind{};
   std::string text{};   ///< JSON, as stored
   std::string shown{};  ///< text without its secrets
-  std::shared_ptr<const Settings> settings{};
+  Settings settings{};
 };
 
 /// Letters, digits, - and _, 1 to 63 of them. @errors PathMalformed
@@ -24,8 +21,7 @@ Result<void> check_name(std::string_view name);
 /// Whether a setting is never shown.
 bool is_secret(std::string_view setting);
 
-/// Adds the values of `before` that `body` leaves out: its secrets, and a password for the same
-/// broker and user.
+/// Adds what `body` leaves out of `before`: secrets, a password for the same broker and user.
 void keep_secrets(JsonValue& body, const Definition& before);
 
 /// @param body an object with `kind` and the settings of its kind.
@@ -48,8 +44,7 @@ class Connections {
                                                     Plant plant);
   /// Ends all connections and waits for them.
   ~Connections();
-  Connections(const Connections&) = delete;
-  Connections& operator=(const Connections&) = delete;
+  Connections& operator=(Connections&&) = delete;  // neither copied nor moved
 
   Timestamp now() const { return plant_.clock.now(); }
   std::vector<ConnectionState> states() const;  ///< by name
@@ -57,7 +52,9 @@ class Connections {
 
   /// Queues a task for the one thread that changes connections, or for those that test them. Does
   /// not block. @returns false if too many tasks wait.
-  bool run(std::function<void()> work, bool is_test);
+  bool run(std::function<void()> work, bool is_test) {
+    return (is_test ? tests_ : changes_).submit(std::move(work)).has_value();
+  }
 
   // These wait, `test` up to half a minute for the other side, and are called inside of `run`.
 
@@ -65,12 +62,11 @@ class Connections {
   /// PathMalformed, ConnectionReadOnly, those of JSON and storage.
   Result<bool> put(const std::string& name, std::string_view body,
                    const std::optional<std::string>& caller);
-  /// Ends a connection and deletes its position. @errors ConnectionUnknown, ConnectionReadOnly,
-  /// those of storage.
+  /// Ends a connection and deletes its position.
+  /// @errors ConnectionUnknown, ConnectionReadOnly, those of storage.
   Result<void> remove(const std::string& name, const std::optional<std::string>& caller);
   /// Sends again from a place, with the same ids.
-  /// @errors ConnectionUnknown; RequestInvalid, also for an incoming connection; those of JSON and
-  ///   storage.
+  /// @errors ConnectionUnknown; RequestInvalid, also if it is incoming; those of JSON and storage.
   Result<void> replay(const std::string& name, std::string_view body);
   /// @errors ConnectionUnknown.
   Result<ConnectionTest> test(const std::string& name);

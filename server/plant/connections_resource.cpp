@@ -1,74 +1,137 @@
 #include "api/handlers.hpp"
-#include "api/resources.hpp"
 #include "api/wire/request_facts.hpp"
-#include "base/json/json_writer.hpp"
 #include "plant/connections.hpp"
 
 namespace fitgauge::connections {
+void members(auto& v, const DeadLetter& letter) {
+  v.member("measurement", letter.measurement, "Id of the measurement");
+  v.member("at", letter.at, api::Time{}, "Time of the refusal");
+  v.member("reason", letter.reason, "Answer of the other side");
+}
+
+void members(auto& v, const ConnectionTest& test) {
+  v.member("ok", test.ok, "The other side was reached");
+  v.member("detail", test.detail, "Result");
+}
+
 namespace {
 
 using api::JsonWriter;
 
-std::string_view state_word(const ConnectionState& connection) {
-  if (connection.is_stopped) return "stopped";
-  if (hangs(connection, std::chrono::steady_clock::now())) return "hanging";
-  if (connection.is_failing) return "failing";
-  return connection.last_success_at ? "ok" : "waiting";
+namespace schema = api::schema;
+using schema::Others;
+
+/// One of these words, as it is.
+struct WordOf {
+  std::vector<std::string_view> words;
+
+  std::string schema(api::Side) const { return schema::words(words); }
+  void write(JsonWriter& json, std::string_view from) const { json.value(from); }
+};
+
+struct Seconds {
+  std::string schema(api::Side) const { return schema::number(); }
+  void write(JsonWriter& json, double from) const { json.fixed(from, 3); }
+};
+
+/// The place of its word among those of `state`.
+int state_of(const ConnectionState& connection) {
+  if (connection.is_stopped) return 4;
+  if (hangs(connection, std::chrono::steady_clock::now())) return 3;
+  if (connection.is_failing) return 2;
+  return connection.last_success_at ? 1 : 0;
 }
 
 std::optional<std::string> text_of(const std::optional<Timestamp>& time) {
   return time ? std::optional(format_rfc3339(*time)) : std::nullopt;
 }
 
-/// The members of its settings, next to those of its state.
-Result<void> write_settings(JsonWriter& json, const ConnectionState& connection) {
-  const auto settings = TRY(parse_stored_json(connection.settings, "a connection"));
-  for (const auto& [name, value] : settings.members) {
-    if (name == "kind") continue;
-    json.key(name);
-    write_json(json, value);
-  }
-  return {};
+std::optional<double> lag_of(const ConnectionState& connection, Timestamp now) {
+  const auto nanoseconds = lag(connection, now);
+  return nanoseconds ? std::optional(static_cast<double>(*nanoseconds) / 1e9) : std::nullopt;
 }
 
-void write_progress(JsonWriter& json, const ConnectionState& connection) {
-  json.member("position", connection.position.value_or(0)).member("behind", connection.behind);
-  json.key("dead_letters").begin_array();
-  for (const DeadLetter& letter : connection.dead_letters) {
-    json.begin_object()
-        .member("measurement", letter.measurement)
-        .member("at", format_rfc3339(letter.at))
-        .member("reason", letter.reason)
-        .end_object();
+std::vector<std::string_view> names_of_kinds() {
+  std::vector<std::string_view> names;
+  for (const Kind& kind : kinds()) names.push_back(kind.name);
+  return names;
+}
+
+void identity_members(auto& v, const ConnectionState& connection) {
+  v.member("name", connection.name);
+  v.member("kind", connection.kind, WordOf{names_of_kinds()});
+  v.member("direction", connection.is_outgoing, Choice{"in", "out"});
+  v.member("read_only", connection.is_read_only,
+           "The connection belongs to the configuration file");
+}
+
+void state_members(auto& v, const ConnectionState& connection, Timestamp now) {
+  v.member("state", state_of(connection), Choice{"waiting", "ok", "failing", "hanging", "stopped"},
+           "State of the last attempt; hanging: the current attempt has made no progress for a "
+           "minute; stopped: the other side accepts no more");
+  v.member("last_attempt_at", text_of(connection.last_attempt_at));
+  v.member("last_success_at", text_of(connection.last_success_at),
+           "Time of the last delivery or storage");
+  v.member("attempt_began_at", text_of(connection.attempt_began_at),
+           "Start of the current attempt");
+  v.member("lag_s", lag_of(connection, now), Seconds{},
+           "Time since the last success; outgoing: age of the next measurement");
+  v.member("last_error",
+           connection.last_error.empty() ? std::nullopt : std::optional(connection.last_error),
+           "Error of the last failed attempt");
+  const auto if_outgoing = [&](const auto& value) {
+    return connection.is_outgoing ? std::optional(value) : std::nullopt;
+  };
+  v.optional("position", if_outgoing(connection.position.value_or(0)),
+             "Outgoing: measurements of the log that are done");
+  v.optional("behind", if_outgoing(connection.behind),
+             "Outgoing: measurements of the log that wait");
+  v.optional("dead_letters", if_outgoing(connection.dead_letters),
+             "Outgoing: finally refused measurements, newest first");
+  for (const ConnectionCounter& counter : kConnectionCounters) {
+    v.member(counter.name, connection.*counter.value, counter.meaning);
   }
-  json.end_array();
 }
 
 Result<void> write_connection(JsonWriter& json, const ConnectionState& connection, Timestamp now) {
-  json.begin_object()
-      .member("name", connection.name)
-      .member("kind", connection.kind)
-      .member("direction", connection.is_outgoing ? "out" : "in")
-      .member("read_only", connection.is_read_only);
-  TRY(write_settings(json, connection));
-  json.member("state", state_word(connection));
-  json.member("last_attempt_at", text_of(connection.last_attempt_at));
-  json.member("last_success_at", text_of(connection.last_success_at));
-  json.member("attempt_began_at", text_of(connection.attempt_began_at));
-  json.key("lag_s");
-  if (const auto nanoseconds = lag(connection, now)) {
-    json.fixed(static_cast<double>(*nanoseconds) / 1e9, 3);
-  } else {
-    json.null();
+  const auto settings = TRY(parse_stored_json(connection.settings, "a connection"));
+  json.begin_object();
+  api::BodyWriter write(json);
+  identity_members(write, connection);
+  for (const auto& [name, value] : settings.members) {
+    if (name != "kind") write_json(json.key(name), value);
   }
-  json.member("last_error",
-              connection.last_error.empty() ? std::nullopt : std::optional(connection.last_error));
-  if (connection.is_outgoing) write_progress(json, connection);
-  for (const ConnectionCounter& counter : kConnectionCounters) {
-    json.member(counter.name, connection.*counter.value);
-  }
+  state_members(write, connection, now);
   json.end_object();
   return {};
+}
+
+/// `folder_in`: FolderInConnection.
+std::string component_of(std::string_view kind) {
+  std::string component;
+  for (std::size_t i = 0; i < kind.size(); ++i) {
+    const bool begins = i == 0 || kind[i - 1] == '_';
+    if (kind[i] != '_') component += begins ? ascii_upper(kind[i]) : kind[i];
+  }
+  return component + "Connection";
+}
+
+/// The settings of all kinds, each once, without secrets.
+schema::Fields shown_settings() {
+  schema::Fields all;
+  for (const Kind& kind : kinds()) {
+    for (schema::Field& field : kind.fields()) {
+      const bool is_known = std::ranges::find(all, field.name, &schema::Field::name) != all.end();
+      if (!is_known && !is_secret(field.name)) all.push_back(std::move(field));
+    }
+  }
+  return schema::optional(std::move(all));
+}
+
+schema::Fields fields_of(const auto& describe_members) {
+  api::BodySchema describe(api::Side::Answer);
+  describe_members(describe);
+  return describe.fields();
 }
 
 http::Response answer_of(int status, std::string body) {
@@ -127,13 +190,7 @@ Result<http::Response> remove(Connections& all, const http::Request& request) {
 
 Result<http::Response> test(Connections& all, const http::Request& request) {
   const auto found = TRY(all.test(name_of(request)));
-  std::string body;
-  JsonWriter(body)
-      .begin_object()
-      .member("ok", found.ok)
-      .member("detail", found.detail)
-      .end_object();
-  return answer_of(200, std::move(body));
+  return answer_of(200, api::body_json(found));
 }
 
 Result<http::Response> replay(Connections& all, const http::Request& request) {
@@ -183,6 +240,30 @@ void add_connections_routes(api::Routes& add, Connections& all) {
        .body = api::json_body("ConnectionReplay"),
        .outcomes = {{.meaning = "The connection sends again", .schema = "Connection"}},
        .refusals = {404}});
+}
+
+void add_connection_schemas(api::Schemas& schemas) {
+  std::vector<std::pair<std::string_view, std::string>> orders;
+  for (const Kind& kind : kinds()) {
+    orders.emplace_back(kind.name, component_of(kind.name));
+    schemas.push_back(
+        {orders.back().second,
+         schema::object(schema::Fields{{"kind", schema::words({kind.name}), ""}} + kind.fields(),
+                        Others::Refused)});
+  }
+  schemas.push_back({"ConnectionOrder", schema::one_of("kind", orders)});
+  schemas.push_back(
+      {"Connection",
+       schema::object(fields_of([](auto& v) { identity_members(v, {}); }) + shown_settings() +
+                      schema::Fields{{"secret_count", schema::count(), "Number of secrets", false},
+                                     {"password_set", schema::boolean(),
+                                      "true if a password is stored", false}} +
+                      fields_of([](auto& v) { state_members(v, {}, {}); }))});
+  schemas.push_back(
+      {"Connections",
+       schema::object({{"connections", schema::array(schema::ref("Connection")), ""}})});
+  schemas.push_back(api::order_schema<ReplayOrder>("ConnectionReplay"));
+  schemas.push_back(api::answer_schema<ConnectionTest>("ConnectionTest"));
 }
 
 }  // namespace fitgauge::connections

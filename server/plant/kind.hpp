@@ -2,8 +2,6 @@
 
 #include "api/statistics/next_offset.hpp"
 #include "plant/log_follower.hpp"
-#include "plant/plant.hpp"
-#include "plant/settings.hpp"
 
 namespace fitgauge::connections {
 
@@ -31,19 +29,12 @@ void follower_members(V& v, FollowerOptions& options) {
 }
 
 /// The settings of one connection, as its kind has read them.
-class Settings {
- public:
-  Settings() = default;
-  Settings(const Settings&) = delete;
-  Settings& operator=(const Settings&) = delete;
-  virtual ~Settings() = default;
-
+struct Settings {
   /// Starts the connection. @param plant must outlive it.
-  virtual std::unique_ptr<Worker> start(const Plant& plant) const = 0;
+  std::function<std::unique_ptr<Worker>(const Plant& plant)> start;
   /// Tests the other side once, independently of the worker. Blocks up to half a minute.
-  virtual ConnectionTest test(const Plant& plant, const std::stop_token& stop) const = 0;
-  /// Returns the options of an outgoing connection; null for others.
-  virtual const FollowerOptions* follower() const = 0;
+  std::function<ConnectionTest(const Plant& plant, const std::stop_token& stop)> test;
+  std::optional<FollowerOptions> follower{};  ///< of an outgoing connection
 };
 
 /// A kind of connection: its settings, work and test are in its folder, its name is in kinds.inc.
@@ -51,59 +42,46 @@ struct Kind {
   std::string_view name;
   api::schema::Fields (*fields)();
   /// @param body reports every bad field to its errors.
-  std::shared_ptr<const Settings> (*read)(ReadSettings& body, const std::string& name);
+  Settings (*read)(ReadSettings& body, const std::string& name);
 };
 
 /// The kinds of this build, in the order of kinds.inc.
 const std::vector<Kind>& kinds();
 
-/// The settings of a kind. Its folder defines for its options
+/// A kind whose folder defines for its options
 ///   `void members(V&, Options&)`, see base/json/body.hpp,
 ///   `make(const Options&, const Plant&)`, the Worker or, of options with a follower, the Outlet,
 ///   `ConnectionTest test_of(const Options&, const Plant&, const std::stop_token&)`.
 template <class Options>
-class SettingsOf final : public Settings {
- public:
-  static api::schema::Fields fields() {
+Kind kind_of(std::string_view kind) {
+  static constexpr bool kFollows = requires(Options options) { options.follower; };
+  const auto fields = [] {
     Options options;
     api::BodySchema describe(api::Side::Order);
     members(describe, options);
     return describe.fields();
-  }
-  static std::shared_ptr<const Settings> read(ReadSettings& body, const std::string& name) {
-    const auto settings = std::make_shared<SettingsOf>();
+  };
+  const auto read = [](ReadSettings& body, const std::string& name) {
+    const auto options = std::make_shared<Options>();
+    Settings settings;
     if constexpr (kFollows) {
-      settings->options_.follower.name = name;
+      options->follower.name = name;
+      members(body, *options);
+      settings.follower = options->follower;
+      settings.start = [options](const Plant& plant) -> std::unique_ptr<Worker> {
+        return std::make_unique<LogFollower>(options->follower, make(*options, plant), plant);
+      };
     } else {
-      settings->options_.name = name;
+      options->name = name;
+      members(body, *options);
+      settings.start = [options](const Plant& plant) { return make(*options, plant); };
     }
-    members(body, settings->options_);
+    settings.test = [options](const Plant& plant, const std::stop_token& stop) {
+      return test_of(*options, plant, stop);
+    };
     return settings;
-  }
-
-  std::unique_ptr<Worker> start(const Plant& plant) const override {
-    if constexpr (kFollows) {
-      return std::make_unique<LogFollower>(options_.follower, make(options_, plant), plant);
-    } else {
-      return make(options_, plant);
-    }
-  }
-  ConnectionTest test(const Plant& plant, const std::stop_token& stop) const override {
-    return test_of(options_, plant, stop);
-  }
-  const FollowerOptions* follower() const override {
-    if constexpr (kFollows) return &options_.follower;
-    return nullptr;
-  }
-
- private:
-  static constexpr bool kFollows = requires(Options options) { options.follower; };
-  Options options_;
-};
-
-template <class Options>
-Kind kind_of(std::string_view name) {
-  return {name, SettingsOf<Options>::fields, SettingsOf<Options>::read};
+  };
+  return {kind, fields, read};
 }
 
 }  // namespace fitgauge::connections

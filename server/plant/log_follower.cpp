@@ -1,7 +1,6 @@
 #include "plant/log_follower.hpp"
 
 #include "api/statistics/next_offset.hpp"
-#include "base/thread.hpp"
 
 namespace fitgauge::connections {
 namespace {
@@ -107,11 +106,9 @@ LogFollower::~LogFollower() {
   thread_.stop();
 }
 
-void LogFollower::request_stop() { thread_.request_stop(); }
-
 void LogFollower::run(bool& has_begun, const std::stop_token& stop) {
   while (!has_begun && !stop.stop_requested()) {
-    wait(stop, kBetweenSaves);
+    bell_->wait(stop, kBetweenSaves, true);
     has_begun = begin();
   }
   while (!stop.stop_requested() && !state().is_stopped) {
@@ -133,14 +130,10 @@ void LogFollower::run(bool& has_begun, const std::stop_token& stop) {
       guarded("connection", [&] { deliver(stop); });
     } else if (ripe() == 0 && !has_events()) {
       const bool is_idle = pending_.empty() && is_saved && !cannot_read_;
-      wait(stop, is_idle ? kLongestSleep : kBetweenSaves);
+      bell_->wait(stop, is_idle ? kLongestSleep : kBetweenSaves, true);
     }
   }
   save(true);
-}
-
-void LogFollower::wait(const std::stop_token& stop, std::chrono::milliseconds most) {
-  bell_->wait(stop, most, true);
 }
 
 bool LogFollower::begin() {
@@ -229,15 +222,6 @@ void LogFollower::find_offsets(const std::stop_token& stop) {
   }
 }
 
-void LogFollower::take_log_end(std::int64_t end) {
-  log_end_ = end;
-  if (events_behind_ == 0 && !pending_events_.empty()) events_behind_ = end;
-}
-
-bool LogFollower::has_events() const {
-  return !pending_events_.empty() && pending_.empty() && read_to_ >= events_behind_;
-}
-
 void LogFollower::deliver_events(const std::stop_token& stop) {
   begin_attempt();
   const Delivery delivery = outlet_->deliver_events(pending_events_, stop);
@@ -274,9 +258,9 @@ std::size_t LogFollower::planned(std::size_t count) {
       return 0;
     }
   }
-  return static_cast<std::size_t>(std::count_if(
-      pending_.begin(), pending_.end(),
-      [this](const Outgoing& outgoing) { return (*outgoing)->row <= progress_.planned; }));
+  return static_cast<std::size_t>(std::ranges::count_if(pending_, [this](const Outgoing& outgoing) {
+    return (*outgoing)->row <= progress_.planned;
+  }));
 }
 
 void LogFollower::deliver(const std::stop_token& stop) {

@@ -1,10 +1,8 @@
 #pragma once
 
-#include "base/json/body_forms.hpp"
 #include "base/thread.hpp"
 #include "plant/plant.hpp"
 #include "plant/settings.hpp"
-#include "record/measurement.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/events/event_service.hpp"
 
@@ -77,9 +75,7 @@ inline constexpr std::chrono::milliseconds kLongestStretch{500};
 /// The other side of an outgoing connection. Used by one thread.
 class Outlet {
  public:
-  Outlet() = default;
-  Outlet(const Outlet&) = delete;
-  Outlet& operator=(const Outlet&) = delete;
+  Outlet& operator=(Outlet&&) = delete;  // neither copied nor moved
   virtual ~Outlet() = default;
 
   /// Delivers at least one measurement, in order, or returns a failure. The next call gets the
@@ -94,8 +90,7 @@ class Outlet {
   /// Called without data to deliver: at least every 30 s, and soon after `wake`. For connections
   /// that stay open. @returns an attempt, or none if there was nothing to do.
   virtual std::optional<Delivery> idle(const std::stop_token&) { return std::nullopt; }
-  /// Called before all other functions. @param wake may be called on any thread while the outlet
-  /// exists.
+  /// Called first. @param wake may be called on any thread while the outlet exists.
   virtual void wake_by(std::function<void()>) {}
 };
 
@@ -114,8 +109,7 @@ struct FollowerOptions {
   bool plans = false;
 };
 
-/// Stores the start of a new connection, so that it misses no later measurement. Blocks. @errors
-/// those of storage.
+/// Stores the start of a new connection: it misses nothing later. Blocks. @errors of storage.
 Result<Progress> begin_progress(const FollowerOptions& options, const Plant& plant);
 
 /// Follows the log of measurements and gives measurements that pass the filter to an outlet, in
@@ -128,7 +122,7 @@ class LogFollower final : public Worker {
   LogFollower(FollowerOptions options, std::unique_ptr<Outlet> outlet, const Plant& plant);
   ~LogFollower() override;
 
-  void request_stop() override;
+  void request_stop() override { thread_.request_stop(); }
 
  private:
   using Time = std::chrono::steady_clock::time_point;
@@ -142,10 +136,15 @@ class LogFollower final : public Worker {
   Result<void> read_events();
   /// Finds the new offsets after the values that were delivered.
   void find_offsets(const std::stop_token& stop);
-  void take_log_end(std::int64_t end);
+  void take_log_end(std::int64_t end) {
+    log_end_ = end;
+    if (events_behind_ == 0 && !pending_events_.empty()) events_behind_ = end;
+  }
   void deliver(const std::stop_token& stop);
   /// Whether events go out now: when all measurements that were stored before them are dealt with.
-  bool has_events() const;
+  bool has_events() const {
+    return !pending_events_.empty() && pending_.empty() && read_to_ >= events_behind_;
+  }
   void deliver_events(const std::stop_token& stop);
   /// Returns the number of pending measurements that go out now.
   std::size_t ripe() const;
@@ -156,7 +155,6 @@ class LogFollower final : public Worker {
   /// Saves unless it did so less than a second ago. @returns whether nothing is left to save.
   bool save(bool at_once);
   void show();
-  void wait(const std::stop_token& stop, std::chrono::milliseconds most);
 
   const FollowerOptions options_;
   const std::unique_ptr<Outlet> outlet_;

@@ -122,8 +122,7 @@ class Worker {
  public:
   /// @param name of the connection. @param plant outlives it.
   Worker(std::string name, const Plant& plant) : plant_(plant), name_(std::move(name)) {}
-  Worker(const Worker&) = delete;
-  Worker& operator=(const Worker&) = delete;
+  Worker& operator=(Worker&&) = delete;  // neither copied nor moved
   virtual ~Worker() = default;
 
   /// Requests a stop. To end many workers, call this for all before you wait. Thread-safe.

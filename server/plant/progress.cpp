@@ -1,11 +1,5 @@
 #include "plant/log_follower.hpp"
 
-#include "base/json/json_value.hpp"
-#include "base/json/json_writer.hpp"
-#include "base/thread.hpp"
-#include "service/events/event_service.hpp"
-#include "service/measurements/measurement_service.hpp"
-
 namespace fitgauge::connections {
 namespace {
 
@@ -13,16 +7,10 @@ constexpr std::size_t kMostLetters = 100;
 constexpr auto kKind = app::DocumentKind::ConnectionProgress;
 
 std::int64_t whole_number(const JsonValue& object, std::string_view name) {
+  const std::string& digits = object.member(name).text;
   std::int64_t number = 0;
-  if (const JsonValue* value = object.find(name)) {
-    std::from_chars(value->text.data(), value->text.data() + value->text.size(), number);
-  }
+  std::from_chars(digits.data(), digits.data() + digits.size(), number);
   return number;
-}
-
-std::string text_of(const JsonValue& object, std::string_view name) {
-  const JsonValue* const value = object.find(name);
-  return value == nullptr ? std::string() : value->text;
 }
 
 Progress progress_of(const JsonValue& stored) {
@@ -30,12 +18,10 @@ Progress progress_of(const JsonValue& stored) {
                     .planned = whole_number(stored, "planned"),
                     .refused = static_cast<std::uint64_t>(whole_number(stored, "refused"))};
   if (stored.find("event") != nullptr) progress.event = whole_number(stored, "event");
-  if (const JsonValue* letters = stored.find("dead_letters")) {
-    for (const JsonValue& letter : letters->items) {
-      progress.dead_letters.push_back({.measurement = text_of(letter, "measurement"),
-                                       .reason = text_of(letter, "reason"),
-                                       .at = {whole_number(letter, "at")}});
-    }
+  for (const JsonValue& letter : stored.member("dead_letters").items) {
+    progress.dead_letters.push_back({.measurement = std::string(letter.text_of("measurement")),
+                                     .reason = std::string(letter.text_of("reason")),
+                                     .at = {whole_number(letter, "at")}});
   }
   return progress;
 }

@@ -9,8 +9,7 @@
 
 namespace fitgauge::connections {
 
-// Forms of settings, in addition to base/json/body_forms.hpp. They only read: the meaning of a
-// setting has its default.
+// Forms of settings beside base/json/body_forms.hpp. They only read; the meaning has the default.
 
 /// A text that `parse` converts to a value. For a wrong text `parse` returns an error.
 template <class Parse>
@@ -71,8 +70,7 @@ struct SomeOf {
             std::set<std::string, std::less<>>& to) const;
 };
 
-/// A list of `least` to `most` items. `take` converts an item to a value or an error; `item` is its
-/// schema.
+/// A list of `least` to `most` items. `take` makes an item a value or an error.
 template <class Take>
 struct Each {
   std::size_t least;
@@ -107,6 +105,39 @@ struct Each {
 };
 template <class Take>
 Each(std::size_t, std::size_t, std::string_view, std::string, Take) -> Each<Take>;
+
+/// An object of at most `most` members. `take` makes a name and its value a value or an error.
+template <class Take>
+struct EachMember {
+  std::size_t most;
+  std::string_view of;  ///< before the bound in the message
+  std::string item;     ///< schema of a value
+  Take take;
+
+  std::string schema(api::Side) const { return api::schema::map(item); }
+  template <class T>
+  bool read(api::FieldReader& fields, std::string_view name, std::vector<T>& to) const {
+    const JsonValue* const object = fields.object(name);
+    if (object == nullptr) return false;
+    if (object->members.size() > most) {
+      fields.report(ErrorCode::FieldInvalid, name,
+                    fmt::format("{}must have at most {} members", of, most));
+      return false;
+    }
+    for (const auto& [key, value] : object->members) {
+      auto made = take(key, value);
+      if (made) {
+        to.push_back(*std::move(made));
+      } else {
+        fields.errors().add(made.error().code, pointer_to(fields.at(name), key),
+                            made.error().message);
+      }
+    }
+    return true;
+  }
+};
+template <class Take>
+EachMember(std::size_t, std::string_view, std::string, Take) -> EachMember<Take>;
 
 /// Files and folders of this machine that a connection may name.
 struct FolderPermissions {
@@ -143,8 +174,7 @@ struct LogFilter {
   bool takes(const app::Measurement& measurement) const;
 };
 
-/// The form of a LogFilter: an object of texts that a measurement must have, `verdict` (a list of
-/// words), and `source`.
+/// An object of texts that a measurement must have, `verdict` (a list of words), and `source`.
 struct FilterForm {
   std::string schema(api::Side side) const;
   bool read(api::FieldReader& fields, std::string_view name, LogFilter& to) const;

@@ -1,9 +1,8 @@
 // Bytes as what a client, or a control, sends: each telegram is the same however it is cut on its
 // way, and what is read of it is written as it was.
 
-#include "plant/lsv2/link/answers.hpp"
+#include "plant/lsv2/link/messages.hpp"
 #include "plant/lsv2/link/payload.hpp"
-#include "plant/lsv2/link/requests.hpp"
 
 using namespace fitgauge::control_link;
 

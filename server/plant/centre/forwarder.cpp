@@ -1,13 +1,17 @@
 #include "plant/centre/forwarder.hpp"
 
-#include "base/digest.hpp"
+#include "base/gzip.hpp"
 #include "base/json/json_value.hpp"
+#include "base/number.hpp"
+#include "base/regular_file.hpp"
 #include "service/log/batch_text.hpp"
+#include "service/log/revisions_text.hpp"
 
 namespace fitgauge::forwarder {
 namespace {
 
 using std::chrono::milliseconds;
+using std::chrono::minutes;
 using std::chrono::seconds;
 
 constexpr milliseconds kBetweenLooks{200};
@@ -20,18 +24,25 @@ constexpr long kConflict = 409;
 constexpr long kTooLarge = 413;
 constexpr long kFirstOfServer = 500;
 
-std::string text_of(const JsonValue& json, std::string_view name) {
-  const JsonValue* value = json.find(name);
-  return value == nullptr ? std::string() : value->text;
+std::optional<std::int64_t> size_of(const JsonValue& head) {
+  const auto size = read_number<std::int64_t>(head.text_of("size"));
+  return size && *size >= 0 ? size : std::nullopt;
 }
 
-std::optional<std::int64_t> size_of(const JsonValue& head) {
-  const std::string text = text_of(head, "size");
-  std::int64_t size = 0;
-  const char* const end = text.data() + text.size();
-  const bool whole = !text.empty() && std::from_chars(text.data(), end, size).ptr == end;
-  return whole && size >= 0 ? std::optional(size) : std::nullopt;
+constexpr seconds kTimeout{60};
+constexpr std::size_t kLongestAnswer = std::size_t{64} << 10;
+constexpr std::size_t kLongestPage = std::size_t{64} << 20;
+
+/// The first line of the file. @returns false when it cannot be read.
+bool read_key(const std::string& file, std::string& key) {
+  const auto text = read_regular(file);
+  if (text) key = trim(text->substr(0, text->find('\n')));
+  return !key.empty();
 }
+
+constexpr seconds kBetweenQuestions{5};
+/// After a revision could not be stored: the cause may be gone.
+constexpr minutes kBetweenBeginnings{10};
 
 }  // namespace
 
@@ -43,8 +54,7 @@ Forwarder::Forwarder(app::LogOutbox outbox, app::RevisionIntake intake, Forwarde
           std::move(intake), [this] { return outbox_.newest_history(); }, options_.tell) {
   if (const auto confirmed = outbox_.confirmed(options_.centre.url)) confirmed_ = *confirmed;
   look();
-  // The newest tables are needed before the first measurement. An unreachable centre does not delay
-  // the start for long.
+  // The first measurement needs the newest tables; an unreachable centre delays little.
   const auto until = Steady::now() + kPatienceAtStart;
   guarded("the follower", [&] { follow([until] { return Steady::now() < until; }); });
   thread_ = Thread("the forwarder", [this](const std::stop_token& stop) { run(stop); });
@@ -84,20 +94,14 @@ void Forwarder::follow(const CentreLink::GoesOn& goes_on) {
   const auto there = follower_.look(link_, goes_on);
   if (!there) return;
   outbox_.meet(there->centre);
-  // The centre was set back to an older copy: it gets the missing rows. Of an unknown branch it may
-  // still have the records below.
+  // The centre was set back to an older copy: it gets the missing rows. It may have older ones of a
+  // branch.
   const std::int64_t has = std::max(there->size, outbox_.history_of(seen_).begin);
   if (has < confirmed_) goes_back_to(has);
   if (!there->notes) return noted_.reset();
   const std::int64_t noted = noted_.value_or(0);
   const bool is_told = outbox_.is_note_of(there->history, std::max(noted, *there->notes));
   noted_ = is_told ? *there->notes : noted;  // the centre ignores notes that it already has
-}
-
-/// With the records it may have lost notes, also of histories before the newest.
-void Forwarder::goes_back_to(std::int64_t size) {
-  confirmed_ = size;
-  if (noted_) noted_ = 0;
 }
 
 /// Counts waiting records during a call.
@@ -120,8 +124,7 @@ void Forwarder::run(const std::stop_token& stop) {
       pause_ = std::clamp(2 * pause_, kFirstPause, kLongestPause);
     }
     if (sent == Sent::Taken) continue;
-    // Half of the pause is random, so that stations do not connect all at once when their centre is
-    // back.
+    // Half of the pause is random: stations do not connect all at once when their centre is back.
     const milliseconds pause = sent == Sent::Nothing ? kBetweenLooks : pause_;
     auto jitter = std::uniform_int_distribution<milliseconds::rep>(0, pause.count() / 2);
     wait(stop, pause - milliseconds(jitter(random_)));
@@ -175,15 +178,15 @@ Forwarder::Sent Forwarder::answered(const http_client::HttpAnswer& answer, std::
     most_rows_ = std::max<std::int64_t>(1, most_rows_ / 2);
     return Sent::Taken;
   }
-  const std::string detail = json ? text_of(*json, "detail") : std::string();
-  const std::string code = json ? text_of(*json, "code") : std::string();
+  const std::string detail = std::string(json ? json->text_of("detail") : "");
+  const std::string code = std::string(json ? json->text_of("code") : "");
   if (code == "log.forked" || code == "log.key_unknown") {
     return forked(fmt::format("{} {}", answer.status, detail));
   }
   if (answer.status == kConflict && code == "log.position") {
     const JsonValue* head = json->find("head");
     const auto size = head == nullptr ? std::nullopt : size_of(*head);
-    if (size) return elsewhere(*size, text_of(*head, "root"));
+    if (size) return elsewhere(*size, std::string(head->text_of("root")));
   }
   return failed(answer.status < kFirstOfServer ? Sent::Refused : Sent::Failed,
                 fmt::format("{} {}", answer.status, detail));
@@ -195,7 +198,7 @@ Forwarder::Sent Forwarder::elsewhere(std::int64_t size, const std::string& root)
   tlog::Hash there{};
   if (!bytes || bytes->size() != there.size())
     return failed(Sent::Refused, "the centre returned a malformed root");
-  std::copy(bytes->begin(), bytes->end(), there.begin());
+  std::ranges::copy(*bytes, there.begin());
   const app::LogService::History& history = outbox_.history_of(confirmed_ + 1);
   if (history.end && size >= *history.end) {  // the further records continued elsewhere
     took(*history.end);
@@ -276,6 +279,73 @@ void Forwarder::look() {
   const std::lock_guard lock(mutex_);
   seen_ = waiting->rows + confirmed_;
   state_.oldest = waiting->oldest;
+}
+
+CentreLink::HttpAnswer CentreLink::call(http_client::HttpCall call, const std::string& path,
+                                        const GoesOn& goes_on) {
+  if (!options_.key_file.empty()) {
+    std::string key;
+    if (!read_key(options_.key_file, key)) {
+      return {.failure = fmt::format("cannot read a key from {}", options_.key_file)};
+    }
+    call.headers.push_back("Authorization: Bearer " + key);
+  }
+  call.url = options_.url + path;
+  call.timeout = kTimeout;
+  return client_.call(call, goes_on);
+}
+
+CentreLink::HttpAnswer CentreLink::put(const std::string& path, std::string_view ndjson,
+                                       const GoesOn& goes_on) {
+  const std::string body = gzip(ndjson);
+  return call({.method = "PUT",
+               .headers = {"Content-Type: application/x-ndjson", "Content-Encoding: gzip"},
+               .body = body,
+               .longest_answer = kLongestAnswer},
+              path, goes_on);
+}
+
+CentreLink::HttpAnswer CentreLink::get(const std::string& path, const GoesOn& goes_on) {
+  return call({.method = "GET", .longest_answer = kLongestPage}, path, goes_on);
+}
+
+std::optional<Follower::Heard> Follower::look(CentreLink& link, const CentreLink::GoesOn& goes_on) {
+  const auto now = Steady::now();
+  if (now < due_) return std::nullopt;
+  heard_.reset();
+  due_ = now + kBetweenQuestions;
+  if (refused_ && now > begun_ + kBetweenBeginnings) position_.clear();
+  if (position_.empty()) {
+    begun_ = now;
+    refused_ = false;
+  }
+  while (take_page(link, goes_on)) {
+  }
+  return heard_;
+}
+
+/// @returns whether there is more.
+bool Follower::take_page(CentreLink& link, const CentreLink::GoesOn& goes_on) {
+  const std::string_view station = station_();
+  const http_client::HttpAnswer answer =
+      link.get(fmt::format("/v1/log/revisions?station={}&after={}", station, position_), goes_on);
+  if (answer.status == 0) return failed(answer.failure);
+  if (answer.status != kOk) return failed(fmt::format("it answers {}", answer.status));
+  const auto read = api::read_revisions(answer.body);
+  if (!read) return failed(read.error().message);
+  const auto taken = intake_.take((*read)->page);
+  if (!taken) return failed(taken.error().message);
+  failure_.clear();
+  refused_ = refused_ || taken->refused > 0;
+  position_ = (*read)->page.position;
+  heard_ = {.history = station,
+            .centre = (*read)->page.origin,
+            .size = (*read)->page.size,
+            .notes = (*read)->page.notes};
+  if (taken->taken > 0) {
+    tell_("revisions_taken", fmt::format("{} up to {}", taken->taken, position_));
+  }
+  return (*read)->page.more;
 }
 
 }  // namespace fitgauge::forwarder

@@ -9,6 +9,9 @@
 
 namespace fitgauge::forwarder {
 
+/// Writes to the service log: the name of an event and a sentence.
+using Tell = std::function<void(std::string_view event, const std::string& detail)>;
+
 struct CentreOptions {
   std::string url{};          ///< `https://centre`, without a slash at its end
   std::string key_file{};     ///< the API key; empty: none
@@ -42,10 +45,8 @@ class CentreLink {
 /// memory: after a start it stores all of them again, which changes nothing. Used by one thread.
 class Follower {
  public:
-  /// @param tell name of the event and a sentence, for the service log.
   /// @param station returns the ending of the ids of this folder.
-  Follower(app::RevisionIntake intake, std::function<std::string_view()> station,
-           std::function<void(std::string_view event, const std::string& detail)> tell)
+  Follower(app::RevisionIntake intake, std::function<std::string_view()> station, Tell tell)
       : intake_(std::move(intake)), station_(std::move(station)), tell_(std::move(tell)) {}
 
   struct Heard {
@@ -61,11 +62,15 @@ class Follower {
   using Steady = std::chrono::steady_clock;
 
   bool take_page(CentreLink& link, const CentreLink::GoesOn& goes_on);
-  bool failed(const std::string& why);
+  bool failed(const std::string& why) {
+    if (why != failure_) tell_("revisions_failed", why);
+    failure_ = why;
+    return false;
+  }
 
   app::RevisionIntake intake_;
   const std::function<std::string_view()> station_;
-  const std::function<void(std::string_view event, const std::string& detail)> tell_;
+  const Tell tell_;
   std::string position_{};
   std::optional<Heard> heard_{};
   bool refused_ = false;  ///< something since the beginning
@@ -76,8 +81,7 @@ class Follower {
 
 struct ForwarderOptions {
   CentreOptions centre{};
-  /// The event's name and a sentence, for the log of the service; called on the thread.
-  std::function<void(std::string_view event, const std::string& detail)> tell{};
+  Tell tell{};  ///< called on the thread
 };
 
 /// Sends this folder's log to its centre in batches and stores the centre's revisions, on its own
@@ -87,8 +91,7 @@ class Forwarder {
   /// First requests the centre's revisions, for at most some seconds.
   Forwarder(app::LogOutbox outbox, app::RevisionIntake intake, ForwarderOptions options);
   ~Forwarder();
-  Forwarder(const Forwarder&) = delete;
-  Forwarder& operator=(const Forwarder&) = delete;
+  Forwarder& operator=(Forwarder&&) = delete;  // neither copied nor moved
 
   struct State {
     std::int64_t rows = 0;            ///< that the centre does not have
@@ -106,7 +109,11 @@ class Forwarder {
 
   void run(const std::stop_token& stop);
   void follow(const CentreLink::GoesOn& goes_on);
-  void goes_back_to(std::int64_t size);
+  /// With the records it may have lost notes, also of histories before the newest.
+  void goes_back_to(std::int64_t size) {
+    confirmed_ = size;
+    if (noted_) noted_ = 0;
+  }
   CentreLink::GoesOn goes_on(const std::stop_token& stop);
   Sent send(const std::stop_token& stop);
   Sent answered(const http_client::HttpAnswer& answer, std::int64_t end, std::int64_t last_note);

@@ -1,13 +1,8 @@
 #include "plant/folder/folder_in.hpp"
 
-#include "base/digest.hpp"
-#include "base/text.hpp"
 #include "formats/dfq/measurement_csv.hpp"
 #include "formats/qif/qif.hpp"
-#include "formats/sheet/record_reader.hpp"
-#include "formats/sheet/shop_csv.hpp"
 #include "http/request.hpp"
-#include "record/measurement_batch.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 #include "service/measurements/measurement_service.hpp"
 #include "service/tables/table_catalog.hpp"

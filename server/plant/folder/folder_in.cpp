@@ -2,9 +2,7 @@
 
 #include <poll.h>
 #include <sys/inotify.h>
-#include <unistd.h>
 
-#include "base/text.hpp"
 #include "base/thread.hpp"
 #include "http/request.hpp"
 
@@ -32,22 +30,194 @@ class FolderIn final : public Worker {
     bool is_taken = false;  ///< and could not be moved yet
   };
 
-  void run(const std::stop_token& stop);
-  void watch();
+  void run(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      if (watch_ < 0) watch();
+      std::optional<std::string> why = "a defect of fitgauge ended the attempt";
+      begin_attempt();
+      guarded("folder_in", [&] { why = look(stop); });
+      if (stop.stop_requested()) return;
+      finish_attempt(why);
+      const auto most =
+          is_restless_ && !why ? std::min(options_.interval, options_.rest) : options_.interval;
+      wait(stop, std::max<std::chrono::milliseconds>(most, std::chrono::milliseconds(200)));
+    }
+  }
+
+  void watch() {
+    inotify_ = Descriptor(inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
+    if (inotify_.get() < 0) return;  // then it is looked at from time to time
+    watch_ = inotify_add_watch(inotify_.get(), options_.folder.c_str(),
+                               IN_MOVED_TO | IN_CLOSE_WRITE | IN_DELETE_SELF | IN_MOVE_SELF);
+  }
+
   /// Until something happens, the time is over, or a stop.
-  void wait(const std::stop_token& stop, std::chrono::milliseconds most);
+  void wait(const std::stop_token& stop, std::chrono::milliseconds most) {
+    const Time until = std::chrono::steady_clock::now() + most;
+    while (!stop.stop_requested() && std::chrono::steady_clock::now() < until) {
+      pollfd waited{.fd = watch_ < 0 ? -1 : inotify_.get(), .events = POLLIN, .revents = 0};
+      if (poll(&waited, 1, kStopSliceMs) <= 0) continue;
+      alignas(inotify_event) std::array<char, kInotifyBuffer> buffer;
+      const ssize_t count = read(inotify_.get(), buffer.data(), buffer.size());
+      bool has_come = false;
+      for (std::size_t at = 0; count > 0 && at < static_cast<std::size_t>(count);) {
+        inotify_event event{};
+        std::memcpy(&event, buffer.data() + at, sizeof event);
+        const char* const name = buffer.data() + at + sizeof event;
+        if ((event.mask & (IN_DELETE_SELF | IN_MOVE_SELF | IN_IGNORED)) != 0) watch_ = -1;
+        if ((event.mask & IN_MOVED_TO) != 0 && event.len > 0) moved_in_.insert(name);
+        has_come = has_come || (event.mask & (IN_MOVED_TO | IN_CLOSE_WRITE)) != 0;
+        at += sizeof event + event.len;
+      }
+      if (has_come || watch_ < 0) return;
+    }
+  }
+
   /// Stores files that do not change. @returns why not.
-  std::optional<std::string> look(const std::stop_token& stop);
-  std::optional<std::string> take(const Folder& folder, const std::string& name, Seen& seen);
+  std::optional<std::string> look(const std::stop_token& stop) {
+    const auto folder = Folder::open(options_.folder);
+    if (!folder) return folder.error().message;
+    std::map<std::string, Seen> now;
+    const Time at = std::chrono::steady_clock::now();
+    is_restless_ = false;
+    std::vector<std::pair<std::int64_t, std::string>> ready;
+    const auto listed = folder->list([&](const std::string& name) {
+      const auto status = is_wanted(name) ? folder->look(name) : std::nullopt;
+      if (!status || !S_ISREG(status->st_mode)) return true;
+      Seen seen{.look = look_of(*status), .since = at};
+      const auto known = seen_.find(name);
+      if (known != seen_.end() && known->second.look == seen.look) seen = known->second;
+      const bool is_whole = moved_in_.contains(name) || at - seen.since >= options_.rest;
+      if (is_whole) ready.emplace_back(seen.look.changed_ns, name);
+      is_restless_ = is_restless_ || !is_whole;
+      now.emplace(name, seen);
+      return now.size() < options_.most_entries;
+    });
+    if (!listed) return listed.error().message;
+    seen_ = std::move(now);
+    moved_in_.clear();
+    std::ranges::sort(ready);
+    std::optional<std::string> first;
+    at_rest_.clear();
+    for (const auto& [time, name] : ready) at_rest_.insert(name);
+    for (const auto& [time, name] : ready) {
+      if (stop.stop_requested()) break;
+      if (is_description(name)) continue;  // read together with its DFX
+      begin_attempt();
+      if (auto why = take(*folder, name, seen_[name]); why && !first) first = std::move(why);
+    }
+    return first;
+  }
+
+  std::optional<std::string> take(const Folder& folder, const std::string& name, Seen& seen) {
+    std::vector<std::string> names = {name};
+    if (is_values_alone(name)) {
+      const auto description = description_of(name, seen);
+      if (!description) return fail(folder, names, description.error());
+      if (description->empty()) return std::nullopt;
+      names.push_back(*description);
+    }
+    if (seen.is_taken) return move_away(folder, names);
+    std::vector<RestingFile> files;
+    std::int64_t size = 0;
+    for (const std::string& one : names) {
+      const Look& look = seen_[one].look;
+      size += look.size;
+      if (look.size > static_cast<std::int64_t>(options_.most_file_bytes)) {
+        return fail(folder, names,
+                    {ErrorCode::BodyTooLarge,
+                     fmt::format("it has more than {} MiB: split it into several files",
+                                 options_.most_file_bytes >> 20)});
+      }
+      auto file = RestingFile::open(folder, one, look);
+      if (!file) return file.error().message;
+      if (!*file) return std::nullopt;  // taken away since
+      files.push_back(**std::move(file));
+    }
+    const auto taken =
+        take_file(options_, plant_, name, files[0], files.size() > 1 ? &files[1] : nullptr);
+    if (!taken) {
+      if (is_of_storage(taken.error())) return taken.error().message;
+      return fail(folder, names, taken.error());
+    }
+    if (!*taken) {
+      is_restless_ = true;  // it changes yet: the next look begins anew
+      for (const std::string& one : names) seen_[one].since = std::chrono::steady_clock::now();
+      return std::nullopt;
+    }
+    change([&](ConnectionState& state) {
+      state.measurements += (*taken)->measurements;
+      if ((*taken)->was_taken_before) return;
+      ++state.files;
+      state.bytes += static_cast<std::uint64_t>(size);
+    });
+    if ((*taken)->was_taken_before) {
+      plant_.tell("file_taken_before", fmt::format("{}: {}: the same bytes are stored; it is moved "
+                                                   "to done",
+                                                   options_.name, name));
+    }
+    seen.is_taken = true;
+    return move_away(folder, names);
+  }
+
   /// The DFD of a DFX: empty while it has to be waited for. @errors it is not there.
-  Result<std::string> description_of(const std::string& name, const Seen& seen);
+  Result<std::string> description_of(const std::string& name, const Seen& seen) {
+    const std::string stem = name.substr(0, name.rfind('.'));
+    for (const auto& [other, looked] : seen_) {
+      if (!is_description(other) || other.substr(0, other.rfind('.')) != stem) continue;
+      if (at_rest_.contains(other)) return other;
+      is_restless_ = true;
+      return std::string();
+    }
+    if (std::chrono::steady_clock::now() - seen.since < kWaitsForDescription * options_.interval) {
+      is_restless_ = true;
+      return std::string();
+    }
+    return Error{
+        ErrorCode::RequestInvalid,
+        fmt::format("its description {}.dfd is not in the folder: copy both files into it", stem)};
+  }
+
   /// Moves stored files. @returns why one stays, until the next scan.
   static std::optional<std::string> move_away(const Folder& folder,
-                                              const std::vector<std::string>& names);
+                                              const std::vector<std::string>& names) {
+    const auto done = folder.sub("done");
+    if (!done) return fmt::format("{} cannot be moved: {}", names.front(), done.error().message);
+    for (const std::string& name : names) {
+      if (const auto moved = folder.move(name, *done, name); !moved) return moved.error().message;
+    }
+    return std::nullopt;
+  }
+
   /// @param names of the file, and of its description if it has one
   std::optional<std::string> fail(const Folder& folder, const std::vector<std::string>& names,
-                                  const Error& error);
-  bool is_wanted(const std::string& name) const;
+                                  const Error& error) {
+    const std::string& name = names.front();
+    const auto failed = folder.sub("failed");
+    if (!failed) return fmt::format("{} cannot be moved: {}", name, failed.error().message);
+    const std::string to = failed->free_name(name);
+    // The text is there before the file is, so that a file in `failed` always has one.
+    if (const auto written = failed->write(to + ".error.txt", told(name, error)); !written) {
+      return fmt::format("{}: {}", name, written.error().message);
+    }
+    change([](ConnectionState& state) { ++state.unreadable; });
+    plant_.tell("file_refused",
+                fmt::format("{}: {}: {}", options_.name, name,
+                            error.details.empty() ? error.message : error.details.front().message));
+    if (const auto moved = folder.move(name, *failed, to); !moved) return moved.error().message;
+    for (const std::string& beside : std::span(names).subspan(1)) {
+      if (const auto moved = folder.move(beside, *failed, beside); !moved) {
+        return moved.error().message;
+      }
+    }
+    return std::nullopt;
+  }
+
+  bool is_wanted(const std::string& name) const {
+    return !name.starts_with('.') &&
+           std::ranges::any_of(options_.names,
+                               [&](const std::string& glob) { return matches_glob(glob, name); });
+  }
 
   const FolderInOptions options_;
 
@@ -61,192 +231,6 @@ class FolderIn final : public Worker {
 
   Thread thread_;  // last: it uses all above
 };
-
-void FolderIn::run(const std::stop_token& stop) {
-  while (!stop.stop_requested()) {
-    if (watch_ < 0) watch();
-    std::optional<std::string> why = "a defect of fitgauge ended the attempt";
-    begin_attempt();
-    guarded("folder_in", [&] { why = look(stop); });
-    if (stop.stop_requested()) return;
-    finish_attempt(why);
-    const auto most =
-        is_restless_ && !why ? std::min(options_.interval, options_.rest) : options_.interval;
-    wait(stop, std::max<std::chrono::milliseconds>(most, std::chrono::milliseconds(200)));
-  }
-}
-
-void FolderIn::watch() {
-  inotify_ = Descriptor(inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
-  if (inotify_.get() < 0) return;  // then it is looked at from time to time
-  watch_ = inotify_add_watch(inotify_.get(), options_.folder.c_str(),
-                             IN_MOVED_TO | IN_CLOSE_WRITE | IN_DELETE_SELF | IN_MOVE_SELF);
-}
-
-void FolderIn::wait(const std::stop_token& stop, std::chrono::milliseconds most) {
-  const Time until = std::chrono::steady_clock::now() + most;
-  while (!stop.stop_requested() && std::chrono::steady_clock::now() < until) {
-    pollfd waited{.fd = watch_ < 0 ? -1 : inotify_.get(), .events = POLLIN, .revents = 0};
-    if (poll(&waited, 1, kStopSliceMs) <= 0) continue;
-    alignas(inotify_event) std::array<char, kInotifyBuffer> buffer;
-    const ssize_t count = read(inotify_.get(), buffer.data(), buffer.size());
-    bool has_come = false;
-    for (std::size_t at = 0; count > 0 && at < static_cast<std::size_t>(count);) {
-      inotify_event event{};
-      std::memcpy(&event, buffer.data() + at, sizeof event);
-      const char* const name = buffer.data() + at + sizeof event;
-      if ((event.mask & (IN_DELETE_SELF | IN_MOVE_SELF | IN_IGNORED)) != 0) watch_ = -1;
-      if ((event.mask & IN_MOVED_TO) != 0 && event.len > 0) moved_in_.insert(name);
-      has_come = has_come || (event.mask & (IN_MOVED_TO | IN_CLOSE_WRITE)) != 0;
-      at += sizeof event + event.len;
-    }
-    if (has_come || watch_ < 0) return;
-  }
-}
-
-bool FolderIn::is_wanted(const std::string& name) const {
-  return !name.starts_with('.') &&
-         std::any_of(options_.names.begin(), options_.names.end(),
-                     [&](const std::string& glob) { return matches_glob(glob, name); });
-}
-
-std::optional<std::string> FolderIn::look(const std::stop_token& stop) {
-  const auto folder = Folder::open(options_.folder);
-  if (!folder) return folder.error().message;
-  std::map<std::string, Seen> now;
-  const Time at = std::chrono::steady_clock::now();
-  is_restless_ = false;
-  std::vector<std::pair<std::int64_t, std::string>> ready;
-  const auto listed = folder->list([&](const std::string& name) {
-    const auto status = is_wanted(name) ? folder->look(name) : std::nullopt;
-    if (!status || !S_ISREG(status->st_mode)) return true;
-    Seen seen{.look = look_of(*status), .since = at};
-    const auto known = seen_.find(name);
-    if (known != seen_.end() && known->second.look == seen.look) seen = known->second;
-    const bool is_whole = moved_in_.contains(name) || at - seen.since >= options_.rest;
-    if (is_whole) ready.emplace_back(seen.look.changed_ns, name);
-    is_restless_ = is_restless_ || !is_whole;
-    now.emplace(name, seen);
-    return now.size() < options_.most_entries;
-  });
-  if (!listed) return listed.error().message;
-  seen_ = std::move(now);
-  moved_in_.clear();
-  std::sort(ready.begin(), ready.end());
-  std::optional<std::string> first;
-  at_rest_.clear();
-  for (const auto& [time, name] : ready) at_rest_.insert(name);
-  for (const auto& [time, name] : ready) {
-    if (stop.stop_requested()) break;
-    if (is_description(name)) continue;  // read together with its DFX
-    begin_attempt();
-    if (auto why = take(*folder, name, seen_[name]); why && !first) first = std::move(why);
-  }
-  return first;
-}
-
-Result<std::string> FolderIn::description_of(const std::string& name, const Seen& seen) {
-  const std::string stem = name.substr(0, name.rfind('.'));
-  for (const auto& [other, looked] : seen_) {
-    if (!is_description(other) || other.substr(0, other.rfind('.')) != stem) continue;
-    if (at_rest_.contains(other)) return other;
-    is_restless_ = true;
-    return std::string();
-  }
-  if (std::chrono::steady_clock::now() - seen.since < kWaitsForDescription * options_.interval) {
-    is_restless_ = true;
-    return std::string();
-  }
-  return Error{
-      ErrorCode::RequestInvalid,
-      fmt::format("its description {}.dfd is not in the folder: copy both files into it", stem)};
-}
-
-std::optional<std::string> FolderIn::take(const Folder& folder, const std::string& name,
-                                          Seen& seen) {
-  std::vector<std::string> names = {name};
-  if (is_values_alone(name)) {
-    const auto description = description_of(name, seen);
-    if (!description) return fail(folder, names, description.error());
-    if (description->empty()) return std::nullopt;
-    names.push_back(*description);
-  }
-  if (seen.is_taken) return move_away(folder, names);
-  std::vector<RestingFile> files;
-  std::int64_t size = 0;
-  for (const std::string& one : names) {
-    const Look& look = seen_[one].look;
-    size += look.size;
-    if (look.size > static_cast<std::int64_t>(options_.most_file_bytes)) {
-      return fail(folder, names,
-                  {ErrorCode::BodyTooLarge,
-                   fmt::format("it has more than {} MiB: split it into several files",
-                               options_.most_file_bytes >> 20)});
-    }
-    auto file = RestingFile::open(folder, one, look);
-    if (!file) return file.error().message;
-    if (!*file) return std::nullopt;  // taken away since
-    files.push_back(**std::move(file));
-  }
-  const auto taken =
-      take_file(options_, plant_, name, files[0], files.size() > 1 ? &files[1] : nullptr);
-  if (!taken) {
-    if (is_of_storage(taken.error())) return taken.error().message;
-    return fail(folder, names, taken.error());
-  }
-  if (!*taken) {
-    is_restless_ = true;  // it changes yet: the next look begins anew
-    for (const std::string& one : names) seen_[one].since = std::chrono::steady_clock::now();
-    return std::nullopt;
-  }
-  change([&](ConnectionState& state) {
-    state.measurements += (*taken)->measurements;
-    if ((*taken)->was_taken_before) return;
-    ++state.files;
-    state.bytes += static_cast<std::uint64_t>(size);
-  });
-  if ((*taken)->was_taken_before) {
-    plant_.tell("file_taken_before", fmt::format("{}: {}: the same bytes are stored; it is moved "
-                                                 "to done",
-                                                 options_.name, name));
-  }
-  seen.is_taken = true;
-  return move_away(folder, names);
-}
-
-std::optional<std::string> FolderIn::move_away(const Folder& folder,
-                                               const std::vector<std::string>& names) {
-  const auto done = folder.sub("done");
-  if (!done) return fmt::format("{} cannot be moved: {}", names.front(), done.error().message);
-  for (const std::string& name : names) {
-    if (const auto moved = folder.move(name, *done, name); !moved) return moved.error().message;
-  }
-  return std::nullopt;
-}
-
-std::optional<std::string> FolderIn::fail(const Folder& folder,
-                                          const std::vector<std::string>& names,
-                                          const Error& error) {
-  const std::string& name = names.front();
-  const auto failed = folder.sub("failed");
-  if (!failed) return fmt::format("{} cannot be moved: {}", name, failed.error().message);
-  const std::string to = failed->free_name(name);
-  // The text is there before the file is, so that a file in `failed` always has one.
-  if (const auto written = failed->write(to + ".error.txt", told(name, error)); !written) {
-    return fmt::format("{}: {}", name, written.error().message);
-  }
-  change([](ConnectionState& state) { ++state.unreadable; });
-  plant_.tell("file_refused",
-              fmt::format("{}: {}: {}", options_.name, name,
-                          error.details.empty() ? error.message : error.details.front().message));
-  if (const auto moved = folder.move(name, *failed, to); !moved) return moved.error().message;
-  for (const std::string& beside : std::span(names).subspan(1)) {
-    if (const auto moved = folder.move(beside, *failed, beside); !moved) {
-      return moved.error().message;
-    }
-  }
-  return std::nullopt;
-}
 
 }  // namespace
 

@@ -76,8 +76,7 @@ bool is_values_alone(std::string_view file_name);
 /// Whether it is the description of such a file: a DFD.
 bool is_description(std::string_view file_name);
 
-/// Measurements of a file in the form of /v1/measurements. The capacity after the text is at least
-/// http::Request::kBodyPadding bytes.
+/// Measurements of a file as for /v1/measurements, with room for http::Request::kBodyPadding.
 struct FileRows {
   static constexpr std::size_t kMostBytes = std::size_t{48} << 20;
 
@@ -88,8 +87,7 @@ struct FileRows {
 
 /// Reads a table, NDJSON, DFQ or QIF by its name, piece by piece, and keeps only its rows.
 /// @param description of a DFX: its DFD; else null.
-/// @errors BodyTooLarge; those of sheet::ShopRows, sheet::NdjsonRows, aqdef::MeasurementCsv and
-///   qif::QifRows
+/// @errors BodyTooLarge; those of ShopRows, NdjsonRows, MeasurementCsv and QifRows
 Result<FileRows> read_file_rows(const FolderInOptions& options,
                                 const iso286::ToleranceTables& tables, std::string_view file_name,
                                 const RestingFile& file, const RestingFile* description);

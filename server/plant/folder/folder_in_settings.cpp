@@ -1,12 +1,8 @@
-#include <unistd.h>
 
 #include <cerrno>
 
-#include "base/clock.hpp"
-#include "base/text.hpp"
 #include "plant/folder/folder_in.hpp"
 #include "plant/kind.hpp"
-#include "record/measurement_row_reader.hpp"
 
 namespace fitgauge::connections {
 namespace {
@@ -15,8 +11,8 @@ constexpr std::size_t kMostWords = 200;
 constexpr std::size_t kLongestGlob = 100;
 
 bool is_field(std::string_view name) {
-  return std::any_of(api::kRowFields.begin(), api::kRowFields.end(),
-                     [&](const api::RowField& field) { return field.name == name; });
+  return std::ranges::any_of(api::kRowFields,
+                             [&](const api::RowField& field) { return field.name == name; });
 }
 
 Result<std::string> read_glob(const JsonValue& item) {
@@ -28,33 +24,17 @@ Result<std::string> read_glob(const JsonValue& item) {
 
 /// An object of texts; `fault` returns the fault of one.
 template <class Fault>
-struct TextsBy {
-  Fault fault;
-
-  std::string schema(api::Side) const { return api::schema::map(api::schema::text()); }
-  bool read(api::FieldReader& fields, std::string_view name, sheet::Words& to) const {
-    const JsonValue* const object = fields.object(name);
-    if (object == nullptr) return false;
-    if (object->members.size() > kMostWords) {
-      fields.report(ErrorCode::FieldInvalid, name,
-                    fmt::format("must have at most {} members", kMostWords));
-      return false;
-    }
-    for (const auto& [key, value] : object->members) {
-      const bool is_text = value.is(JsonValue::Kind::String) || value.is(JsonValue::Kind::Number);
-      const std::string why = is_text ? fault(key, value.text) : "must be a text";
-      if (why.empty()) {
-        to.emplace_back(key, value.text);
-      } else {
-        fields.errors().add(is_text ? ErrorCode::FieldInvalid : ErrorCode::FieldType,
-                            pointer_to(fields.at(name), key), why);
-      }
-    }
-    return true;
-  }
-};
-template <class Fault>
-TextsBy(Fault) -> TextsBy<Fault>;
+auto texts_by(Fault fault) {
+  using Word = std::pair<std::string, std::string>;
+  const auto take = [fault](std::string_view key, const JsonValue& value) -> Result<Word> {
+    const bool is_text = value.is(JsonValue::Kind::String) || value.is(JsonValue::Kind::Number);
+    if (!is_text) return Error{ErrorCode::FieldType, "must be a text"};
+    if (std::string why = fault(key, value.text); !why.empty())
+      return invalid_field(std::move(why));
+    return Word(key, value.text);
+  };
+  return EachMember{kMostWords, "", api::schema::text(), take};
+}
 
 std::string fault_of_column(std::string_view, std::string_view to) {
   if (to.empty() || to == "date" || to == "time" || is_field(to)) return {};
@@ -92,9 +72,9 @@ void members(V& v, FolderInOptions& options) {
   v.optional("names", options.names,
              Each{1, 20, "names", api::schema::text(kLongestGlob), read_glob},
              "Names of files, with * and ?, such as *.csv");
-  v.optional("map", options.csv.columns, TextsBy{fault_of_column},
+  v.optional("map", options.csv.columns, texts_by(fault_of_column),
              "Name of a column and its field, date or time; empty ignores the column");
-  v.optional("set", options.csv.constants, TextsBy{fault_of_constant},
+  v.optional("set", options.csv.constants, texts_by(fault_of_constant),
              "A field and its value for every row");
   v.optional("time_zone", options.csv.zone, By{0, sheet::TimeZone::load},
              "Time zone of times without an offset, such as Europe/Berlin");

@@ -43,9 +43,8 @@ std::string_view key_of(const app::Measurement& measurement, Split split) {
 /// Characters of a file name; the numbers before it keep equal names apart.
 std::string plain(std::string_view key) {
   std::string name(key.substr(0, kLongestKeyInName));
-  std::replace_if(
-      name.begin(), name.end(),
-      [](char c) { return !is_ascii_alphanumeric(c) && c != '-' && c != '_'; }, '_');
+  std::ranges::replace_if(
+      name, [](char c) { return !is_ascii_alphanumeric(c) && c != '-' && c != '_'; }, '_');
   return name;
 }
 
@@ -66,98 +65,91 @@ class FolderOut final : public Outlet {
   FolderOut(FolderOutOptions options, const Plant& plant)
       : options_(std::move(options)), plant_(plant) {}
 
-  Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) override;
+  Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token&) override {
+    Delivery delivery;
+    std::vector<DeadLetter> refused;
+    const auto folder = Folder::open(options_.folder);
+    if (!folder) return {.failure = folder.error().message};
+    for (const File& file : files_of(measurements, refused)) {
+      if (file.text.empty()) continue;  // nothing of it is writable
+      if (const auto written = folder->write(name_of(file, *folder), file.text); !written) {
+        delivery.failure = written.error().message;
+        return delivery;
+      }
+      ++delivery.files;
+      delivery.bytes += file.text.size();
+    }
+    delivery.refused = std::move(refused);
+    delivery.dealt_with = measurements.size();
+    return delivery;
+  }
 
  private:
   std::vector<File> files_of(std::span<const Outgoing> measurements,
-                             std::vector<DeadLetter>& refused) const;
+                             std::vector<DeadLetter>& refused) const {
+    std::vector<File> files;
+    for (const Outgoing& outgoing : measurements) {
+      const app::Measurement& measurement = **outgoing;
+      const std::string_view key = key_of(measurement, options_.split);
+      auto file = std::ranges::find_if(files, [&](const File& other) { return other.key == key; });
+      if (file == files.end()) {
+        files.push_back({.key = std::string(key), .first = measurement.row});
+        file = std::prev(files.end());
+      }
+      file->last = measurement.row;
+      if (const auto added = add(*file, measurement); !added) {
+        refused.push_back(
+            {.measurement = app::measurement_id_text(measurement.id, measurement.origin),
+             .reason = added.error().message,
+             .at = plant_.clock.now()});
+      }
+    }
+    for (File& file : files) {
+      if (file.dfq && !file.dfq->is_empty()) file.text = file.dfq->text();
+      if (file.qif && !file.qif->is_empty()) file.text = file.qif->text();
+    }
+    return files;
+  }
+
   /// @errors a DFQ or a QIF cannot express it.
-  Result<void> add(File& file, const app::Measurement& measurement) const;
+  Result<void> add(File& file, const app::Measurement& measurement) const {
+    switch (options_.format) {
+      case Format::Csv:
+        if (file.text.empty()) file.text = api::measurement_csv_header();
+        api::append_measurement_csv(file.text, measurement);
+        break;
+      case Format::Ndjson:
+        app::append_record(file.text, measurement);
+        file.text += '\n';
+        break;
+      case Format::Dfq:
+        if (!file.dfq) file.dfq.emplace(options_.dfq);
+        return api::add_to_dfq(*file.dfq, measurement);
+      case Format::Qif:
+        if (!file.qif) file.qif.emplace();
+        return api::add_to_qif(*file.qif, measurement);
+    }
+    return {};
+  }
+
   /// A name that no file with another content has.
-  std::string name_of(const File& file, const Folder& folder) const;
+  std::string name_of(const File& file, const Folder& folder) const {
+    std::string name =
+        fmt::format("{}-{:012}-{:012}", options_.follower.name, file.first, file.last);
+    if (plant_.is_branch) name += "-" + plant_.origin;
+    if (!file.key.empty()) name += "-" + plain(file.key);
+    constexpr std::array<std::string_view, 4> kEndings = {".csv", ".ndjson", ".dfq", ".qif"};
+    const std::string_view ending = kEndings.at(static_cast<std::size_t>(options_.format));
+    std::string free = fmt::format("{}{}", name, ending);
+    for (int number = 2; has_other(folder, free, file.text); ++number) {
+      free = fmt::format("{}-{}{}", name, number, ending);
+    }
+    return free;
+  }
 
   const FolderOutOptions options_;
   const Plant& plant_;
 };
-
-Result<void> FolderOut::add(File& file, const app::Measurement& measurement) const {
-  switch (options_.format) {
-    case Format::Csv:
-      if (file.text.empty()) file.text = api::measurement_csv_header();
-      api::append_measurement_csv(file.text, measurement);
-      break;
-    case Format::Ndjson:
-      app::append_record(file.text, measurement);
-      file.text += '\n';
-      break;
-    case Format::Dfq:
-      if (!file.dfq) file.dfq.emplace(options_.dfq);
-      return api::add_to_dfq(*file.dfq, measurement);
-    case Format::Qif:
-      if (!file.qif) file.qif.emplace();
-      return api::add_to_qif(*file.qif, measurement);
-  }
-  return {};
-}
-
-std::vector<File> FolderOut::files_of(std::span<const Outgoing> measurements,
-                                      std::vector<DeadLetter>& refused) const {
-  std::vector<File> files;
-  for (const Outgoing& outgoing : measurements) {
-    const app::Measurement& measurement = **outgoing;
-    const std::string_view key = key_of(measurement, options_.split);
-    auto file = std::find_if(files.begin(), files.end(),
-                             [&](const File& other) { return other.key == key; });
-    if (file == files.end()) {
-      files.push_back({.key = std::string(key), .first = measurement.row});
-      file = std::prev(files.end());
-    }
-    file->last = measurement.row;
-    if (const auto added = add(*file, measurement); !added) {
-      refused.push_back(
-          {.measurement = app::measurement_id_text(measurement.id, measurement.origin),
-           .reason = added.error().message,
-           .at = plant_.clock.now()});
-    }
-  }
-  for (File& file : files) {
-    if (file.dfq && !file.dfq->is_empty()) file.text = file.dfq->text();
-    if (file.qif && !file.qif->is_empty()) file.text = file.qif->text();
-  }
-  return files;
-}
-
-std::string FolderOut::name_of(const File& file, const Folder& folder) const {
-  std::string name = fmt::format("{}-{:012}-{:012}", options_.follower.name, file.first, file.last);
-  if (plant_.is_branch) name += "-" + plant_.origin;
-  if (!file.key.empty()) name += "-" + plain(file.key);
-  constexpr std::array<std::string_view, 4> kEndings = {".csv", ".ndjson", ".dfq", ".qif"};
-  const std::string_view ending = kEndings.at(static_cast<std::size_t>(options_.format));
-  std::string free = fmt::format("{}{}", name, ending);
-  for (int number = 2; has_other(folder, free, file.text); ++number) {
-    free = fmt::format("{}-{}{}", name, number, ending);
-  }
-  return free;
-}
-
-Delivery FolderOut::deliver(std::span<const Outgoing> measurements, const std::stop_token&) {
-  Delivery delivery;
-  std::vector<DeadLetter> refused;
-  const auto folder = Folder::open(options_.folder);
-  if (!folder) return {.failure = folder.error().message};
-  for (const File& file : files_of(measurements, refused)) {
-    if (file.text.empty()) continue;  // nothing of it is writable
-    if (const auto written = folder->write(name_of(file, *folder), file.text); !written) {
-      delivery.failure = written.error().message;
-      return delivery;
-    }
-    ++delivery.files;
-    delivery.bytes += file.text.size();
-  }
-  delivery.refused = std::move(refused);
-  delivery.dealt_with = measurements.size();
-  return delivery;
-}
 
 /// The form of a text in that field of a DFQ.
 auto part_text(std::size_t longest, int field) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "formats/measuring_log/pattern.hpp"
-#include "plant/lsv2/link/link_socket.hpp"
+#include "formats/measuring_log/measuring_log.hpp"
+#include "plant/lsv2/link/link_client.hpp"
 #include "plant/plant.hpp"
 #include "record/measurement.hpp"
 #include "service/tables/table_catalog.hpp"
@@ -45,12 +45,9 @@ std::unique_ptr<Worker> make(const MachineOptions& machine, const Plant& plant);
 /// Logs in and lists the watched folders once. Waits.
 ConnectionTest test_of(const MachineOptions& machine, const Plant&, const std::stop_token& stop);
 
-/// One log, or one result of an FN 16 file, ready to store. Owns the texts of its measurements, so
-/// it must not move.
+/// One log, or one result of an FN 16 file. Owns its measurements' texts, so it must not move.
 struct CollectedLog {
-  CollectedLog() = default;
-  CollectedLog(const CollectedLog&) = delete;
-  CollectedLog& operator=(const CollectedLog&) = delete;
+  CollectedLog& operator=(CollectedLog&&) = delete;  // neither copied nor moved
 
   std::string text{};
   bool has_time = false;                         ///< the control's, in its text
@@ -61,25 +58,6 @@ struct CollectedLog {
   app::TableCatalog::Tables tables{};
   std::deque<std::string> texts{};
 };
-
-/// Content of a file.
-struct Collected {
-  std::vector<std::shared_ptr<CollectedLog>> logs{};
-  std::vector<std::string> unread{};  ///< `line 5: …`
-};
-
-/// Source of a file and its limits.
-struct Origin {
-  const MachineOptions& machine;
-  const std::string& path;  ///< on the control
-  const app::TableCatalog& tables;
-  Timestamp now;  ///< of results without a time
-};
-
-/// Reads the logs of touch-probe cycles, or else by the first pattern that finds a result. Of
-/// a log that judges something every size is stored, and every other length it judges; of one that
-/// judges nothing every length, unjudged. Angles and figures of axes stay in the file.
-Collected collect(const Origin& origin, const std::string& bytes);
 
 /// Results of a file.
 struct Taken {

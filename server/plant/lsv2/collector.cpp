@@ -1,10 +1,6 @@
 #include "plant/lsv2/collected_log.hpp"
 
-#include "base/digest.hpp"
-#include "base/text.hpp"
-#include "base/thread.hpp"
 #include "plant/kind.hpp"
-#include "plant/lsv2/link/link_client.hpp"
 
 namespace fitgauge::connections {
 namespace {
@@ -16,6 +12,14 @@ using control_link::LinkFailure;
 bool is_directory(const DirectoryEntry& entry) {
   return (entry.flags & (control_link::FileInformation::kDirectory |
                          control_link::FileInformation::kDirectoryOfItnc)) != 0;
+}
+
+bool is_watched(const MachineOptions& machine, std::string_view folder,
+                const DirectoryEntry& entry) {
+  return !is_directory(entry) &&
+         std::ranges::any_of(machine.paths, [&](const WatchedPath& watched) {
+           return watched.folder == folder && matches_glob(watched.name, entry.name);
+         });
 }
 
 /// A connection that may list and read.
@@ -35,14 +39,12 @@ control_link::LinkResult<LinkClient> connect(const MachineOptions& machine,
 std::vector<std::string> folders_of(const MachineOptions& machine) {
   std::vector<std::string> folders;
   for (const WatchedPath& path : machine.paths) {
-    if (std::find(folders.begin(), folders.end(), path.folder) == folders.end())
-      folders.push_back(path.folder);
+    if (std::ranges::find(folders, path.folder) == folders.end()) folders.push_back(path.folder);
   }
   return folders;
 }
 
-/// Reads probing logs from a control with its own thread and connection: a slow or unreachable
-/// control delays no other.
+/// Has its own thread and connection: a slow or unreachable control delays no other.
 class Collector final : public Worker {
  public:
   Collector(MachineOptions options, const Plant& plant)
@@ -58,19 +60,103 @@ class Collector final : public Worker {
     std::uint32_t bytes = 0;
     std::uint32_t unix_time = 0;
     Digest digest{};
-    /// Two fetches were equal: a control's time has whole seconds, and a file can change again
-    /// within one.
+    /// Two fetches were equal: a file can change again within a second of its time.
     bool is_settled = false;
   };
 
-  void run(const std::stop_token& stop);
+  void run(const std::stop_token& stop) {
+    std::chrono::seconds wait = options_.interval;
+    while (!stop.stop_requested()) {
+      std::optional<std::string> why = "a defect of fitgauge ended the attempt";
+      begin_attempt();
+      guarded("collector", [&] { why = round(stop); });
+      if (stop.stop_requested()) return;
+      finish_attempt(why);
+      const auto most = std::max(options_.longest_wait, options_.interval);
+      wait = is_away_ ? std::min(2 * wait, most) : options_.interval;
+      wait_unless_stopped(stop, wait);
+    }
+  }
+
   /// One connection: everything that has changed. @returns why it failed.
-  std::optional<std::string> round(const std::stop_token& stop);
-  std::optional<std::string> read_folder(LinkClient& control, const std::string& folder);
+  std::optional<std::string> round(const std::stop_token& stop) {
+    is_away_ = true;
+    auto control = connect(options_, stop);
+    if (!control) return control.error().message;
+    is_away_ = false;
+    round_bytes_ = 0;
+    std::optional<std::string> first;
+    for (const std::string& folder : folders_of(options_)) {
+      auto why = read_folder(*control, folder);
+      if (why && !first) first = std::move(why);
+      if (is_away_) break;
+    }
+    return first;
+  }
+
+  /// An unreadable folder or file delays no other, as long as the connection is open.
+  std::optional<std::string> read_folder(LinkClient& control, const std::string& folder) {
+    auto entries = control.list(folder, options_.most_entries);
+    if (!entries) return failed(folder, entries.error());
+    std::optional<std::string> first;
+    for (const DirectoryEntry& entry : *entries) {
+      if (!is_watched(options_, folder, entry)) continue;
+      if (auto why = fetch(control, folder + entry.name, entry); why && !first)
+        first = std::move(why);
+      if (is_away_) break;
+    }
+    return first;
+  }
+
   std::optional<std::string> fetch(LinkClient& control, const std::string& path,
-                                   const DirectoryEntry& entry);
+                                   const DirectoryEntry& entry) {
+    begin_attempt();
+    const std::string key = ascii_lower(path);
+    const auto known = seen_.find(key);
+    const bool is_known = known != seen_.end() && known->second.bytes == entry.bytes &&
+                          known->second.unix_time == entry.unix_time;
+    if (is_known && known->second.is_settled) return std::nullopt;
+    if (entry.bytes > options_.most_file_bytes) {
+      return fmt::format("{}: has more than {} bytes: move it away on the control", path,
+                         options_.most_file_bytes);
+    }
+    if (round_bytes_ + entry.bytes > options_.most_round_bytes) return std::nullopt;
+    const auto bytes =
+        control.download(path, control_link::Transfer::Binary, options_.most_file_bytes);
+    if (!bytes) {
+      // Deleted since it was listed.
+      if (bytes.error().is_refusal(control_link::ControlError::NoFile)) return std::nullopt;
+      return failed(path, bytes.error());
+    }
+    round_bytes_ += bytes->size();
+    const Digest digest = sha256(*bytes);
+    if (known != seen_.end() && known->second.digest == digest) {
+      known->second = {entry.bytes, entry.unix_time, digest, is_known};
+      return std::nullopt;
+    }
+    const auto taken = take_logs(plant_, options_, path, *bytes);
+    if (!taken) return path + ": " + taken.error().message;
+    seen_[key] = {entry.bytes, entry.unix_time, digest, false};
+    change([&](ConnectionState& state) {
+      ++state.files;
+      state.bytes += bytes->size();
+      state.logs += taken->logs;
+      state.measurements += taken->measurements;
+      state.values_kept += taken->values_kept;
+      state.unreadable += taken->unread.size();
+    });
+    if (!taken->unread.empty()) {
+      plant_.tell("log_not_understood", fmt::format("{}: {}: {}; the file is kept whole",
+                                                    options_.name, path, taken->unread.front()));
+    }
+    return std::nullopt;
+  }
+
   /// After anything but a refusal the talk is over.
-  std::string failed(const std::string& path, const LinkFailure& failure);
+  std::string failed(const std::string& path, const LinkFailure& failure) {
+    is_away_ = failure.kind != LinkFailure::Kind::Refused;
+    return path + ": " + failure.message;
+  }
 
   const MachineOptions options_;
   std::map<std::string, Seen> seen_;  ///< by path in lower case; of the thread alone
@@ -78,103 +164,6 @@ class Collector final : public Worker {
   bool is_away_ = false;  ///< the machine is not reached, or its connection broke
   Thread thread_;         // last: it uses all above
 };
-
-void Collector::run(const std::stop_token& stop) {
-  std::chrono::seconds wait = options_.interval;
-  while (!stop.stop_requested()) {
-    std::optional<std::string> why = "a defect of fitgauge ended the attempt";
-    begin_attempt();
-    guarded("collector", [&] { why = round(stop); });
-    if (stop.stop_requested()) return;
-    finish_attempt(why);
-    const auto most = std::max(options_.longest_wait, options_.interval);
-    wait = is_away_ ? std::min(2 * wait, most) : options_.interval;
-    wait_unless_stopped(stop, wait);
-  }
-}
-
-std::optional<std::string> Collector::round(const std::stop_token& stop) {
-  is_away_ = true;
-  auto control = connect(options_, stop);
-  if (!control) return control.error().message;
-  is_away_ = false;
-  round_bytes_ = 0;
-  std::optional<std::string> first;
-  for (const std::string& folder : folders_of(options_)) {
-    auto why = read_folder(*control, folder);
-    if (why && !first) first = std::move(why);
-    if (is_away_) break;
-  }
-  return first;
-}
-
-/// An unreadable folder or file delays no other, as long as the connection is open.
-std::optional<std::string> Collector::read_folder(LinkClient& control, const std::string& folder) {
-  auto entries = control.list(folder, options_.most_entries);
-  if (!entries) return failed(folder, entries.error());
-  std::optional<std::string> first;
-  for (const DirectoryEntry& entry : *entries) {
-    const bool is_watched =
-        !is_directory(entry) &&
-        std::any_of(options_.paths.begin(), options_.paths.end(), [&](const WatchedPath& watched) {
-          return watched.folder == folder && matches_glob(watched.name, entry.name);
-        });
-    if (!is_watched) continue;
-    if (auto why = fetch(control, folder + entry.name, entry); why && !first)
-      first = std::move(why);
-    if (is_away_) break;
-  }
-  return first;
-}
-
-std::string Collector::failed(const std::string& path, const LinkFailure& failure) {
-  is_away_ = failure.kind != LinkFailure::Kind::Refused;
-  return path + ": " + failure.message;
-}
-
-std::optional<std::string> Collector::fetch(LinkClient& control, const std::string& path,
-                                            const DirectoryEntry& entry) {
-  begin_attempt();
-  const std::string key = ascii_lower(path);
-  const auto known = seen_.find(key);
-  const bool is_known = known != seen_.end() && known->second.bytes == entry.bytes &&
-                        known->second.unix_time == entry.unix_time;
-  if (is_known && known->second.is_settled) return std::nullopt;
-  if (entry.bytes > options_.most_file_bytes) {
-    return fmt::format("{}: has more than {} bytes: move it away on the control", path,
-                       options_.most_file_bytes);
-  }
-  if (round_bytes_ + entry.bytes > options_.most_round_bytes) return std::nullopt;
-  const auto bytes =
-      control.download(path, control_link::Transfer::Binary, options_.most_file_bytes);
-  if (!bytes) {
-    // Deleted since it was listed.
-    if (bytes.error().is_refusal(control_link::ControlError::NoFile)) return std::nullopt;
-    return failed(path, bytes.error());
-  }
-  round_bytes_ += bytes->size();
-  const Digest digest = sha256(*bytes);
-  if (known != seen_.end() && known->second.digest == digest) {
-    known->second = {entry.bytes, entry.unix_time, digest, is_known};
-    return std::nullopt;
-  }
-  const auto taken = take_logs(plant_, options_, path, *bytes);
-  if (!taken) return path + ": " + taken.error().message;
-  seen_[key] = {entry.bytes, entry.unix_time, digest, false};
-  change([&](ConnectionState& state) {
-    ++state.files;
-    state.bytes += bytes->size();
-    state.logs += taken->logs;
-    state.measurements += taken->measurements;
-    state.values_kept += taken->values_kept;
-    state.unreadable += taken->unread.size();
-  });
-  if (!taken->unread.empty()) {
-    plant_.tell("log_not_understood", fmt::format("{}: {}: {}; the file is kept whole",
-                                                  options_.name, path, taken->unread.front()));
-  }
-  return std::nullopt;
-}
 
 constexpr std::size_t kMostPatterns = 20;
 
@@ -189,7 +178,7 @@ Result<WatchedPath> read_watched(const JsonValue& item) {
   if (!item.is(JsonValue::Kind::String))
     return Error{ErrorCode::FieldType, "a path must be a text"};
   std::string path = item.text;
-  std::replace(path.begin(), path.end(), '/', '\\');
+  std::ranges::replace(path, '/', '\\');
   const std::size_t stroke = path.rfind('\\');
   const bool is_path = path.size() > 5 && ascii_iequals(path.substr(0, 5), "TNC:\\") &&
                        stroke + 1 < path.size() && path.find("..") == std::string::npos &&
@@ -228,13 +217,8 @@ ConnectionTest test_of(const MachineOptions& machine, const Plant&, const std::s
   for (const std::string& folder : folders_of(machine)) {
     const auto entries = control->list(folder, machine.most_entries);
     if (!entries) return {.ok = false, .detail = folder + ": " + entries.error().message};
-    files += static_cast<std::size_t>(
-        std::count_if(entries->begin(), entries->end(), [&](const DirectoryEntry& entry) {
-          return !is_directory(entry) &&
-                 std::any_of(machine.paths.begin(), machine.paths.end(), [&](const auto& watched) {
-                   return watched.folder == folder && matches_glob(watched.name, entry.name);
-                 });
-        }));
+    files += static_cast<std::size_t>(std::ranges::count_if(
+        *entries, [&](const auto& entry) { return is_watched(machine, folder, entry); }));
   }
   return {.ok = true, .detail = fmt::format("logged in; {} files are watched", files)};
 }

@@ -37,13 +37,42 @@ class Mqtt final : public Outlet {
         options_(options),
         link_(options.broker,
               MqttMessage{.topic = options.status_topic, .payload = "offline", .retain = true}) {}
-  ~Mqtt() override;
+
+  ~Mqtt() override {
+    if (!link_.is_up()) return;
+    link_.client().send({.topic = options_.status_topic, .payload = "offline", .retain = true});
+    link_.client().leave();
+  }
 
   void wake_by(std::function<void()> wake) override { link_.wake_by(std::move(wake)); }
-  Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) override;
+
+  Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) override {
+    return publish(measurements, stop, [this](const Outgoing& outgoing) {
+      const app::Measurement& measurement = **outgoing;
+      Published published{
+          .id = app::measurement_id_text(measurement.id, measurement.origin),
+          .message = {.topic = options_.topic.topic_of(measurement), .retain = options_.retain}};
+      app::append_record(published.message.payload, measurement);
+      return published;
+    });
+  }
+
   Delivery deliver_events(std::span<const OutgoingEvent> events,
-                          const std::stop_token& stop) override;
-  std::optional<Delivery> idle(const std::stop_token& stop) override;
+                          const std::stop_token& stop) override {
+    return publish(events, stop, [this](const OutgoingEvent& event) {
+      const std::string id = event_text(event);
+      return Published{
+          .id = id,
+          .message = {.topic = fmt::format("{}/{}", options_.events_topic, event.type),
+                      .payload = fmt::format(R"({{"id":"{}","at":"{}","data":{}}})", id,
+                                             format_rfc3339(event.at), event.payload)}};
+    });
+  }
+
+  std::optional<Delivery> idle(const std::stop_token& stop) override {
+    if (link_.is_up()) return std::nullopt;
+    return Delivery{.failure = connect(stop)};
+  }
 
  private:
   struct Published {
@@ -51,94 +80,57 @@ class Mqtt final : public Outlet {
     MqttMessage message;
   };
 
-  std::optional<std::string> connect(const std::stop_token& stop);
+  std::optional<std::string> connect(const std::stop_token& stop) {
+    if (link_.is_up()) return std::nullopt;
+    if (auto failure = link_.connect(stop)) return failure;
+    link_.client().send({.topic = options_.status_topic, .payload = "online", .retain = true});
+    return std::nullopt;
+  }
+
   /// Publishes the message that `compose` makes from each item, in order.
   template <class Items, class Compose>
-  Delivery publish(const Items& items, const std::stop_token& stop, const Compose& compose);
+  Delivery publish(const Items& items, const std::stop_token& stop, const Compose& compose) {
+    Delivery delivery{.failure = connect(stop)};
+    if (delivery.failure) return delivery;
+    const auto until = std::chrono::steady_clock::now() + kLongestStretch;
+    struct Ahead {
+      std::string id;
+      MqttClient::Ticket ticket;
+    };
+    std::deque<Ahead> ahead;
+    std::size_t sent = 0;
+    while (true) {
+      // Silence after a pause of this thread shows nothing about the broker.
+      const bool is_in_time = sent == 0 || std::chrono::steady_clock::now() < until;
+      const bool sends_more = is_in_time && !stop.stop_requested();
+      while (sends_more && sent < items.size() && ahead.size() < kMostAhead) {
+        Published published = compose(items[sent++]);
+        ahead.push_back(
+            {std::move(published.id), link_.client().publish(std::move(published.message))});
+      }
+      if (ahead.empty()) return delivery;
+      const auto reason = link_.client().wait_settled(ahead.front().ticket, kLongestSilence, stop);
+      if (!reason || (*reason != 0 && !is_of_the_message(*reason))) {
+        if (stop.stop_requested()) return delivery;
+        // A broker out of step: a new connection sends pending messages again.
+        delivery.failure = reason ? link_.refused(mqtt_reason(*reason))
+                                  : link_.give_up("the broker does not acknowledge messages");
+        return delivery;
+      }
+      if (*reason != 0) {
+        delivery.refused.push_back({.measurement = ahead.front().id,
+                                    .reason = mqtt_reason(*reason),
+                                    .at = plant_.clock.now()});
+      }
+      ahead.pop_front();
+      ++delivery.dealt_with;
+    }
+  }
 
   const Plant& plant_;
   const MqttOptions options_;
   MqttLink link_;
 };
-
-std::optional<std::string> Mqtt::connect(const std::stop_token& stop) {
-  if (link_.is_up()) return std::nullopt;
-  if (auto failure = link_.connect(stop)) return failure;
-  link_.client().send({.topic = options_.status_topic, .payload = "online", .retain = true});
-  return std::nullopt;
-}
-
-std::optional<Delivery> Mqtt::idle(const std::stop_token& stop) {
-  if (link_.is_up()) return std::nullopt;
-  return Delivery{.failure = connect(stop)};
-}
-
-Delivery Mqtt::deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) {
-  return publish(measurements, stop, [this](const Outgoing& outgoing) {
-    const app::Measurement& measurement = **outgoing;
-    Published published{
-        .id = app::measurement_id_text(measurement.id, measurement.origin),
-        .message = {.topic = options_.topic.topic_of(measurement), .retain = options_.retain}};
-    app::append_record(published.message.payload, measurement);
-    return published;
-  });
-}
-
-Delivery Mqtt::deliver_events(std::span<const OutgoingEvent> events, const std::stop_token& stop) {
-  return publish(events, stop, [this](const OutgoingEvent& event) {
-    const std::string id = event_text(event);
-    return Published{.id = id,
-                     .message = {.topic = fmt::format("{}/{}", options_.events_topic, event.type),
-                                 .payload = fmt::format(R"({{"id":"{}","at":"{}","data":{}}})", id,
-                                                        format_rfc3339(event.at), event.payload)}};
-  });
-}
-
-template <class Items, class Compose>
-Delivery Mqtt::publish(const Items& items, const std::stop_token& stop, const Compose& compose) {
-  Delivery delivery{.failure = connect(stop)};
-  if (delivery.failure) return delivery;
-  const auto until = std::chrono::steady_clock::now() + kLongestStretch;
-  struct Ahead {
-    std::string id;
-    MqttClient::Ticket ticket;
-  };
-  std::deque<Ahead> ahead;
-  std::size_t sent = 0;
-  while (true) {
-    // Silence after a pause of this thread shows nothing about the broker.
-    const bool is_in_time = sent == 0 || std::chrono::steady_clock::now() < until;
-    const bool sends_more = is_in_time && !stop.stop_requested();
-    while (sends_more && sent < items.size() && ahead.size() < kMostAhead) {
-      Published published = compose(items[sent++]);
-      ahead.push_back(
-          {std::move(published.id), link_.client().publish(std::move(published.message))});
-    }
-    if (ahead.empty()) return delivery;
-    const auto reason = link_.client().wait_settled(ahead.front().ticket, kLongestSilence, stop);
-    if (!reason || (*reason != 0 && !is_of_the_message(*reason))) {
-      if (stop.stop_requested()) return delivery;
-      // Ends the connection of a broker that is out of step: a new connection sends pending
-      // messages again.
-      delivery.failure = reason ? link_.refused(mqtt_reason(*reason))
-                                : link_.give_up("the broker does not acknowledge messages");
-      return delivery;
-    }
-    if (*reason != 0) {
-      delivery.refused.push_back({.measurement = ahead.front().id,
-                                  .reason = mqtt_reason(*reason),
-                                  .at = plant_.clock.now()});
-    }
-    ahead.pop_front();
-    ++delivery.dealt_with;
-  }
-}
-
-Mqtt::~Mqtt() {
-  if (!link_.is_up()) return;
-  link_.client().send({.topic = options_.status_topic, .payload = "offline", .retain = true});
-  link_.client().leave();
-}
 
 /// The form of a topic without names.
 auto plain_topic(std::string_view name) {

@@ -4,7 +4,6 @@
 #include <mqtt_protocol.h>
 #include <poll.h>
 #include <sys/eventfd.h>
-#include <unistd.h>
 
 #include <cerrno>
 
@@ -27,10 +26,6 @@ void initialise_library() {
 
 std::size_t bytes_of(const MqttMessage& message) {
   return sizeof message + message.topic.size() + message.payload.size();
-}
-
-std::string_view text_of_connack(int reason, bool version_5) {
-  return version_5 ? mosquitto_reason_string(reason) : mosquitto_connack_string(reason);
 }
 
 }  // namespace
@@ -59,22 +54,167 @@ class MqttClient::Loop {
     }
   }
 
-  void run(const std::stop_token& stop);
+  void run(const std::stop_token& stop) {
+    const auto began = std::chrono::steady_clock::now();
+    int ended = connect();
+    const int socket_error = errno;
+    bool is_late = false;
+    while (ended == MOSQ_ERR_SUCCESS && !is_late && !stop.stop_requested()) {
+      ended = turn();
+      is_late = !client_.is_connected() && std::chrono::steady_clock::now() > began + kConnectTime;
+    }
+    const std::string address = to_text(client_.broker_.address);
+    if (!refusal_.empty()) {
+      end(fmt::format("the broker {}: {}", address, refusal_));
+    } else if (is_late) {
+      end(fmt::format("the broker {} does not answer", address));
+    } else if (ended == MOSQ_ERR_ERRNO) {
+      end(fmt::format("the broker {} cannot be reached: {}", address,
+                      std::strerror(errno != 0 ? errno : socket_error)));
+    } else if (ended == MOSQ_ERR_TLS) {
+      end(fmt::format("the broker {}: TLS fails: {}", address,
+                      told_.empty() ? mosquitto_strerror(ended) : told_));
+    } else {
+      end(fmt::format("the broker {}: {}", address, mosquitto_strerror(ended)));
+    }
+    if (!is_leaving_ && !stop.stop_requested()) client_.wake();
+  }
 
  private:
   struct Destroy {
     void operator()(mosquitto* handle) const { mosquitto_destroy(handle); }
   };
 
-  int connect();
+  int connect() {
+    const Broker& broker = client_.broker_;
+    mosquitto* const handle = handle_.get();
+    if (!broker.user.empty()) {
+      mosquitto_username_pw_set(handle, broker.user.c_str(),
+                                broker.password.empty() ? nullptr : broker.password.c_str());
+    }
+    if (broker.tls) {
+      int done = MOSQ_ERR_INVAL;
+      if (broker.ca_file.empty()) {
+        done = mosquitto_int_option(handle, MOSQ_OPT_TLS_USE_OS_CERTS, 1);
+      } else if (open_regular(broker.ca_file)) {
+        done =
+            mosquitto_tls_set(handle, broker.ca_file.c_str(), nullptr, nullptr, nullptr, nullptr);
+      }
+      if (done != MOSQ_ERR_SUCCESS) {
+        refusal_ =
+            fmt::format("the file {} with CA certificates cannot be read", broker.ca_file.string());
+        return done;
+      }
+    }
+    return mosquitto_connect_async(handle, broker.address.host.c_str(), broker.address.port,
+                                   kKeepAliveSeconds);
+  }
+
   /// @returns an error of libmosquitto when the connection is over.
-  int turn();
-  int carry_out_orders();
-  int carry_out(const Order& order);
-  void read_the_rest();
-  void settle(int mid, int reason);
-  void settled(Ticket ticket, int outcome);
-  void end(std::string why);
+  /// poll instead of mosquitto_loop, which selects and cannot use descriptors above 1023. It reads
+  /// before it writes, because libmosquitto closes a connection on which a write fails.
+  int turn() {
+    if (const int failed = carry_out_orders(); failed != MOSQ_ERR_SUCCESS) {
+      const int reason = errno;
+      read_the_rest();
+      errno = reason;
+      return failed;
+    }
+    const int socket = mosquitto_socket(handle_.get());
+    if (socket < 0) return MOSQ_ERR_CONN_LOST;
+    const short events = mosquitto_want_write(handle_.get()) ? POLLIN | POLLOUT : POLLIN;
+    std::array<pollfd, 2> waits = {{{socket, events, 0}, {client_.event_, POLLIN, 0}}};
+    poll(waits.data(), waits.size(), kLoopMilliseconds);
+    if (waits[1].revents != 0) {
+      std::uint64_t rings = 0;
+      static_cast<void>(!read(client_.event_, &rings, sizeof rings));
+    }
+    if ((waits[0].revents & (POLLIN | POLLHUP | POLLERR)) != 0) {
+      const int failed = mosquitto_loop_read(handle_.get(), 1);
+      if (failed != MOSQ_ERR_SUCCESS) return failed;
+    }
+    if ((waits[0].revents & POLLOUT) != 0) {
+      const int failed = mosquitto_loop_write(handle_.get(), 1);
+      if (failed != MOSQ_ERR_SUCCESS) return failed;
+    }
+    return mosquitto_loop_misc(handle_.get());
+  }
+
+  int carry_out_orders() {
+    std::deque<Order> orders;
+    {
+      const std::lock_guard lock(client_.mutex_);
+      if (client_.state_ != State::Connected) return MOSQ_ERR_SUCCESS;
+      orders.swap(client_.orders_);
+    }
+    for (const Order& order : orders) {
+      if (const int failed = carry_out(order); failed != MOSQ_ERR_SUCCESS) return failed;
+    }
+    return MOSQ_ERR_SUCCESS;
+  }
+
+  int carry_out(const Order& order) {
+    int mid = 0;
+    int done = MOSQ_ERR_SUCCESS;
+    if (const auto* const publish = std::get_if<Publish>(&order.what)) {
+      const MqttMessage& message = publish->message;
+      done = mosquitto_publish(handle_.get(), &mid, message.topic.c_str(),
+                               static_cast<int>(message.payload.size()), message.payload.data(),
+                               message.qos, message.retain);
+    } else if (const auto* const subscribe = std::get_if<Subscribe>(&order.what)) {
+      done = mosquitto_subscribe(handle_.get(), &mid, subscribe->topic.c_str(), subscribe->qos);
+    } else if (const auto* const unsubscribe = std::get_if<Unsubscribe>(&order.what)) {
+      done = mosquitto_unsubscribe(handle_.get(), &mid, unsubscribe->topic.c_str());
+    } else {
+      is_leaving_ = true;
+      return mosquitto_disconnect(handle_.get());
+    }
+    if (done == MOSQ_ERR_INVAL || done == MOSQ_ERR_PAYLOAD_SIZE ||
+        done == MOSQ_ERR_MALFORMED_UTF8 || done == MOSQ_ERR_OVERSIZE_PACKET ||
+        done == MOSQ_ERR_QOS_NOT_SUPPORTED || done == MOSQ_ERR_RETAIN_NOT_SUPPORTED) {
+      settled(order.ticket, kCannotBeSent);
+      return MOSQ_ERR_SUCCESS;
+    }
+    if (done != MOSQ_ERR_SUCCESS) return done;
+    tickets_.emplace(mid, order.ticket);
+    if (const auto early = early_.extract(mid)) settle(mid, early.mapped());
+    return MOSQ_ERR_SUCCESS;
+  }
+
+  /// After a failed write, data of the broker is still unread: acknowledgements, whose messages
+  /// need not be repeated, and the reason of its end.
+  void read_the_rest() {
+    constexpr int kMostPackets = 1000;  // a broker that never ends is not heard out
+    pollfd arrived{mosquitto_socket(handle_.get()), POLLIN, 0};
+    for (int read = 0; read < kMostPackets && arrived.fd >= 0 && poll(&arrived, 1, 0) == 1;
+         ++read) {
+      if (mosquitto_loop_read(handle_.get(), 1) != MOSQ_ERR_SUCCESS) return;
+    }
+  }
+
+  void settle(int mid, int reason) {
+    const auto found = tickets_.find(mid);
+    if (found == tickets_.end()) {
+      early_.insert_or_assign(mid, reason);
+      return;
+    }
+    const Ticket ticket = found->second;
+    tickets_.erase(found);
+    // 1 to 127 mean success, such as "no matching subscribers".
+    settled(ticket, reason >= 128 ? reason : 0);
+  }
+
+  void settled(Ticket ticket, int outcome) {
+    if (ticket != 0) change([&] { client_.settled_.emplace(ticket, outcome); });
+  }
+
+  void end(std::string why) {
+    change([&] {
+      client_.state_ = State::Ended;
+      client_.failure_ = std::move(why);
+    });
+  }
+
   template <class Change>
   void change(const Change& what) {
     const std::lock_guard lock(client_.mutex_);
@@ -83,8 +223,26 @@ class MqttClient::Loop {
   }
 
   using Properties = const mosquitto_property*;
-  static void on_connect(mosquitto*, void* user, int reason, int, Properties);
-  static void on_disconnect(mosquitto*, void* user, int reason, Properties);
+
+  static void on_connect(mosquitto*, void* user, int reason, int, Properties) {
+    auto& loop = *static_cast<Loop*>(user);
+    if (reason == 0) {
+      loop.change([&] { loop.client_.state_ = State::Connected; });
+    } else {
+      loop.refusal_ = fmt::format("it refuses: {}", loop.client_.broker_.version_5
+                                                        ? mosquitto_reason_string(reason)
+                                                        : mosquitto_connack_string(reason));
+    }
+  }
+
+  static void on_disconnect(mosquitto*, void* user, int reason, Properties) {
+    auto& loop = *static_cast<Loop*>(user);
+    if (loop.client_.broker_.version_5 && reason >= 128 && loop.refusal_.empty()) {
+      loop.refusal_ =
+          fmt::format("the broker ended the connection: {}", mosquitto_reason_string(reason));
+    }
+  }
+
   static void on_publish(mosquitto*, void* user, int mid, int reason, Properties) {
     static_cast<Loop*>(user)->settle(mid, reason);
   }
@@ -95,8 +253,31 @@ class MqttClient::Loop {
   static void on_unsubscribe(mosquitto*, void* user, int mid, Properties) {
     static_cast<Loop*>(user)->settle(mid, 0);
   }
-  static void on_message(mosquitto*, void* user, const mosquitto_message* message);
-  static void on_log(mosquitto*, void* user, int level, const char* text);
+
+  static void on_message(mosquitto*, void* user, const mosquitto_message* message) {
+    auto& loop = *static_cast<Loop*>(user);
+    const auto size = static_cast<std::size_t>(message->payloadlen);
+    if (size > kMostArrived) return;  // anybody may publish there, and up to 256 MiB
+    loop.change([&] {
+      MqttClient& client = loop.client_;
+      client.arrived_.push_back(
+          {.topic = message->topic,
+           .payload = std::string(static_cast<const char*>(message->payload), size),
+           .qos = message->qos,
+           .retain = message->retain});
+      client.arrived_bytes_ += bytes_of(client.arrived_.back());
+      // Too many messages are unread: the newest count.
+      while (client.arrived_bytes_ > kMostArrived) {
+        client.arrived_bytes_ -= bytes_of(client.arrived_.front());
+        client.arrived_.pop_front();
+      }
+    });
+    loop.client_.wake();
+  }
+
+  static void on_log(mosquitto*, void* user, int level, const char* text) {
+    if (level == MOSQ_LOG_ERR) static_cast<Loop*>(user)->told_ = text;
+  }
 
   MqttClient& client_;
   std::unique_ptr<mosquitto, Destroy> handle_;
@@ -106,202 +287,6 @@ class MqttClient::Loop {
   std::string refusal_{};          ///< of the broker
   bool is_leaving_ = false;
 };
-
-void MqttClient::Loop::on_connect(mosquitto*, void* user, int reason, int, Properties) {
-  auto& loop = *static_cast<Loop*>(user);
-  if (reason == 0) {
-    loop.change([&] { loop.client_.state_ = State::Connected; });
-  } else {
-    loop.refusal_ =
-        fmt::format("it refuses: {}", text_of_connack(reason, loop.client_.broker_.version_5));
-  }
-}
-
-void MqttClient::Loop::on_disconnect(mosquitto*, void* user, int reason, Properties) {
-  auto& loop = *static_cast<Loop*>(user);
-  if (loop.client_.broker_.version_5 && reason >= 128 && loop.refusal_.empty()) {
-    loop.refusal_ =
-        fmt::format("the broker ended the connection: {}", mosquitto_reason_string(reason));
-  }
-}
-
-void MqttClient::Loop::on_message(mosquitto*, void* user, const mosquitto_message* message) {
-  auto& loop = *static_cast<Loop*>(user);
-  const auto size = static_cast<std::size_t>(message->payloadlen);
-  if (size > kMostArrived) return;  // anybody may publish there, and up to 256 MiB
-  loop.change([&] {
-    MqttClient& client = loop.client_;
-    client.arrived_.push_back(
-        {.topic = message->topic,
-         .payload = std::string(static_cast<const char*>(message->payload), size),
-         .qos = message->qos,
-         .retain = message->retain});
-    client.arrived_bytes_ += bytes_of(client.arrived_.back());
-    // Too many messages are unread: the newest count.
-    while (client.arrived_bytes_ > kMostArrived) {
-      client.arrived_bytes_ -= bytes_of(client.arrived_.front());
-      client.arrived_.pop_front();
-    }
-  });
-  loop.client_.wake();
-}
-
-void MqttClient::Loop::on_log(mosquitto*, void* user, int level, const char* text) {
-  if (level == MOSQ_LOG_ERR) static_cast<Loop*>(user)->told_ = text;
-}
-
-void MqttClient::Loop::settle(int mid, int reason) {
-  const auto found = tickets_.find(mid);
-  if (found == tickets_.end()) {
-    early_.insert_or_assign(mid, reason);
-    return;
-  }
-  const Ticket ticket = found->second;
-  tickets_.erase(found);
-  // 1 to 127 mean success, such as "no matching subscribers".
-  settled(ticket, reason >= 128 ? reason : 0);
-}
-
-void MqttClient::Loop::settled(Ticket ticket, int outcome) {
-  if (ticket != 0) change([&] { client_.settled_.emplace(ticket, outcome); });
-}
-
-int MqttClient::Loop::connect() {
-  const Broker& broker = client_.broker_;
-  mosquitto* const handle = handle_.get();
-  if (!broker.user.empty()) {
-    mosquitto_username_pw_set(handle, broker.user.c_str(),
-                              broker.password.empty() ? nullptr : broker.password.c_str());
-  }
-  if (broker.tls) {
-    int done = MOSQ_ERR_INVAL;
-    if (broker.ca_file.empty()) {
-      done = mosquitto_int_option(handle, MOSQ_OPT_TLS_USE_OS_CERTS, 1);
-    } else if (open_regular(broker.ca_file)) {
-      done = mosquitto_tls_set(handle, broker.ca_file.c_str(), nullptr, nullptr, nullptr, nullptr);
-    }
-    if (done != MOSQ_ERR_SUCCESS) {
-      refusal_ =
-          fmt::format("the file {} with CA certificates cannot be read", broker.ca_file.string());
-      return done;
-    }
-  }
-  return mosquitto_connect_async(handle, broker.address.host.c_str(), broker.address.port,
-                                 kKeepAliveSeconds);
-}
-
-int MqttClient::Loop::carry_out(const Order& order) {
-  int mid = 0;
-  int done = MOSQ_ERR_SUCCESS;
-  if (const auto* const publish = std::get_if<Publish>(&order.what)) {
-    const MqttMessage& message = publish->message;
-    done = mosquitto_publish(handle_.get(), &mid, message.topic.c_str(),
-                             static_cast<int>(message.payload.size()), message.payload.data(),
-                             message.qos, message.retain);
-  } else if (const auto* const subscribe = std::get_if<Subscribe>(&order.what)) {
-    done = mosquitto_subscribe(handle_.get(), &mid, subscribe->topic.c_str(), subscribe->qos);
-  } else if (const auto* const unsubscribe = std::get_if<Unsubscribe>(&order.what)) {
-    done = mosquitto_unsubscribe(handle_.get(), &mid, unsubscribe->topic.c_str());
-  } else {
-    is_leaving_ = true;
-    return mosquitto_disconnect(handle_.get());
-  }
-  if (done == MOSQ_ERR_INVAL || done == MOSQ_ERR_PAYLOAD_SIZE || done == MOSQ_ERR_MALFORMED_UTF8 ||
-      done == MOSQ_ERR_OVERSIZE_PACKET || done == MOSQ_ERR_QOS_NOT_SUPPORTED ||
-      done == MOSQ_ERR_RETAIN_NOT_SUPPORTED) {
-    settled(order.ticket, kCannotBeSent);
-    return MOSQ_ERR_SUCCESS;
-  }
-  if (done != MOSQ_ERR_SUCCESS) return done;
-  tickets_.emplace(mid, order.ticket);
-  if (const auto early = early_.extract(mid)) settle(mid, early.mapped());
-  return MOSQ_ERR_SUCCESS;
-}
-
-int MqttClient::Loop::carry_out_orders() {
-  std::deque<Order> orders;
-  {
-    const std::lock_guard lock(client_.mutex_);
-    if (client_.state_ != State::Connected) return MOSQ_ERR_SUCCESS;
-    orders.swap(client_.orders_);
-  }
-  for (const Order& order : orders) {
-    if (const int failed = carry_out(order); failed != MOSQ_ERR_SUCCESS) return failed;
-  }
-  return MOSQ_ERR_SUCCESS;
-}
-
-/// After a failed write, data of the broker is still unread: acknowledgements, whose messages need
-/// not be repeated, and the reason of its end.
-void MqttClient::Loop::read_the_rest() {
-  constexpr int kMostPackets = 1000;  // a broker that never ends is not heard out
-  pollfd arrived{mosquitto_socket(handle_.get()), POLLIN, 0};
-  for (int read = 0; read < kMostPackets && arrived.fd >= 0 && poll(&arrived, 1, 0) == 1; ++read) {
-    if (mosquitto_loop_read(handle_.get(), 1) != MOSQ_ERR_SUCCESS) return;
-  }
-}
-
-/// poll instead of mosquitto_loop, which selects and cannot use descriptors above 1023. It reads
-/// before it writes, because libmosquitto closes a connection on which a write fails.
-int MqttClient::Loop::turn() {
-  if (const int failed = carry_out_orders(); failed != MOSQ_ERR_SUCCESS) {
-    const int reason = errno;
-    read_the_rest();
-    errno = reason;
-    return failed;
-  }
-  const int socket = mosquitto_socket(handle_.get());
-  if (socket < 0) return MOSQ_ERR_CONN_LOST;
-  const short events = mosquitto_want_write(handle_.get()) ? POLLIN | POLLOUT : POLLIN;
-  std::array<pollfd, 2> waits = {{{socket, events, 0}, {client_.event_, POLLIN, 0}}};
-  poll(waits.data(), waits.size(), kLoopMilliseconds);
-  if (waits[1].revents != 0) {
-    std::uint64_t rings = 0;
-    static_cast<void>(!read(client_.event_, &rings, sizeof rings));
-  }
-  if ((waits[0].revents & (POLLIN | POLLHUP | POLLERR)) != 0) {
-    const int failed = mosquitto_loop_read(handle_.get(), 1);
-    if (failed != MOSQ_ERR_SUCCESS) return failed;
-  }
-  if ((waits[0].revents & POLLOUT) != 0) {
-    const int failed = mosquitto_loop_write(handle_.get(), 1);
-    if (failed != MOSQ_ERR_SUCCESS) return failed;
-  }
-  return mosquitto_loop_misc(handle_.get());
-}
-
-void MqttClient::Loop::end(std::string why) {
-  change([&] {
-    client_.state_ = State::Ended;
-    client_.failure_ = std::move(why);
-  });
-}
-
-void MqttClient::Loop::run(const std::stop_token& stop) {
-  const auto began = std::chrono::steady_clock::now();
-  int ended = connect();
-  const int socket_error = errno;
-  bool is_late = false;
-  while (ended == MOSQ_ERR_SUCCESS && !is_late && !stop.stop_requested()) {
-    ended = turn();
-    is_late = !client_.is_connected() && std::chrono::steady_clock::now() > began + kConnectTime;
-  }
-  const std::string address = to_text(client_.broker_.address);
-  if (!refusal_.empty()) {
-    end(fmt::format("the broker {}: {}", address, refusal_));
-  } else if (is_late) {
-    end(fmt::format("the broker {} does not answer", address));
-  } else if (ended == MOSQ_ERR_ERRNO) {
-    end(fmt::format("the broker {} cannot be reached: {}", address,
-                    std::strerror(errno != 0 ? errno : socket_error)));
-  } else if (ended == MOSQ_ERR_TLS) {
-    end(fmt::format("the broker {}: TLS fails: {}", address,
-                    told_.empty() ? mosquitto_strerror(ended) : told_));
-  } else {
-    end(fmt::format("the broker {}: {}", address, mosquitto_strerror(ended)));
-  }
-  if (!is_leaving_ && !stop.stop_requested()) client_.wake();
-}
 
 MqttClient::MqttClient(Broker broker, std::optional<MqttMessage> will, std::function<void()> wake)
     : broker_(std::move(broker)),
@@ -336,20 +321,10 @@ MqttClient::~MqttClient() {
 
 std::optional<std::string> MqttClient::wait_connected(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  wait(lock, stop, 2 * kConnectTime, [this] { return state_ != State::Connecting; });
+  changed_.wait_for(lock, stop, 2 * kConnectTime, [this] { return state_ != State::Connecting; });
   if (state_ == State::Connected) return std::nullopt;
   return failure_.empty() ? "the broker " + to_text(broker_.address) + " does not answer"
                           : failure_;
-}
-
-bool MqttClient::is_connected() const {
-  const std::lock_guard lock(mutex_);
-  return state_ == State::Connected;
-}
-
-std::string MqttClient::failure() const {
-  const std::lock_guard lock(mutex_);
-  return failure_;
 }
 
 template <class What>
@@ -375,7 +350,8 @@ MqttClient::Ticket MqttClient::unsubscribe(std::string topic) {
 std::optional<int> MqttClient::wait_settled(Ticket ticket, std::chrono::milliseconds most,
                                             const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  wait(lock, stop, most, [&] { return settled_.contains(ticket) || state_ == State::Ended; });
+  changed_.wait_for(lock, stop, most,
+                    [&] { return settled_.contains(ticket) || state_ == State::Ended; });
   const auto found = settled_.extract(ticket);
   return found ? std::optional(found.mapped()) : std::nullopt;
 }
@@ -392,7 +368,8 @@ std::optional<MqttMessage> MqttClient::take_arrived() {
 void MqttClient::leave() {
   order(Leave{}, false);
   std::unique_lock lock(mutex_);
-  wait(lock, std::stop_token(), kLeaveTime, [this] { return state_ != State::Connected; });
+  changed_.wait_for(lock, std::stop_token(), kLeaveTime,
+                    [this] { return state_ != State::Connected; });
 }
 
 }  // namespace fitgauge::connections

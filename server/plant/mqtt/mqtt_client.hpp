@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "base/thread.hpp"
-#include "plant/lsv2/link/link_socket.hpp"
+#include "plant/lsv2/link/link_client.hpp"
 
 struct mosquitto;
 
@@ -39,14 +39,19 @@ class MqttClient {
   MqttClient(Broker broker, std::optional<MqttMessage> will, std::function<void()> wake);
   /// Ends the connection without a word.
   ~MqttClient();
-  MqttClient(const MqttClient&) = delete;
-  MqttClient& operator=(const MqttClient&) = delete;
+  MqttClient& operator=(MqttClient&&) = delete;  // neither copied nor moved
 
   /// Waits until the broker has accepted. @returns the reason for a failure.
   std::optional<std::string> wait_connected(const std::stop_token& stop);
-  bool is_connected() const;
+  bool is_connected() const {
+    const std::lock_guard lock(mutex_);
+    return state_ == State::Connected;
+  }
   /// Returns the reason why it was lost or never began.
-  std::string failure() const;
+  std::string failure() const {
+    const std::lock_guard lock(mutex_);
+    return failure_;
+  }
 
   /// Sends in this order. Messages on a lost connection are never settled. The outcome of each is
   /// kept until wait_settled() takes it.
@@ -90,11 +95,6 @@ class MqttClient {
   void wake() const noexcept;
   template <class What>
   Ticket order(What what, bool has_outcome = true);
-  template <class Until>
-  bool wait(std::unique_lock<std::mutex>& lock, const std::stop_token& stop,
-            std::chrono::milliseconds most, Until until) {
-    return changed_.wait_for(lock, stop, most, until);
-  }
 
   const Broker broker_;
   const std::function<void()> wake_;

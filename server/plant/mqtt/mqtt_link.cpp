@@ -2,8 +2,6 @@
 
 #include <mosquitto.h>
 
-#include "base/text.hpp"
-
 namespace fitgauge::connections {
 namespace {
 
@@ -62,8 +60,6 @@ std::pair<char32_t, std::size_t> front_character(std::string_view text) {
   return {c, std::min(size, text.size())};
 }
 
-Error invalid(std::string message) { return {ErrorCode::FieldInvalid, std::move(message)}; }
-
 /// Characters that a template may have unchanged.
 bool is_literal(std::string_view text) {
   while (!text.empty()) {
@@ -101,33 +97,28 @@ std::string topic_level(std::string_view text) {
 Result<TopicTemplate> TopicTemplate::parse(std::string_view text) {
   // The broker keeps $ for itself; a text that begins with one must not get there.
   if (text.starts_with('$') || text.starts_with('{')) {
-    return invalid("a topic must begin with your own word, such as plant/");
+    return invalid_field("a topic must begin with your own word, such as plant/");
   }
-  return parse_parts(text);
-}
-
-Result<TopicTemplate> TopicTemplate::parse_level(std::string_view text) {
-  if (text.find('/') != std::string_view::npos)
-    return invalid("one level of a topic must not have /");
   return parse_parts(text);
 }
 
 Result<TopicTemplate> TopicTemplate::parse_parts(std::string_view text) {
   if (text.empty() || text.size() > kLongest) {
-    return invalid(fmt::format("a topic must have 1 to {} bytes", kLongest));
+    return invalid_field(fmt::format("a topic must have 1 to {} bytes", kLongest));
   }
   TopicTemplate made;
   while (!text.empty()) {
     const std::size_t open = text.find('{');
     const std::string_view literal = text.substr(0, open);
-    if (!is_literal(literal)) return invalid("a topic must not have +, #, } or control characters");
+    if (!is_literal(literal))
+      return invalid_field("a topic must not have +, #, } or control characters");
     made.parts_.push_back({.text = std::string(literal)});
     if (open == std::string_view::npos) break;
     text.remove_prefix(open + 1);
     const std::size_t close = text.find('}');
     const std::string_view name = text.substr(0, close);
     if (close == std::string_view::npos || !value_of({}, name)) {
-      return invalid(
+      return invalid_field(
           fmt::format("unknown {{{}}}; use one of: {}", first_characters(name, 40), names()));
     }
     made.parts_.push_back({.is_name = true, .text = std::string(name)});
@@ -149,22 +140,11 @@ std::string mqtt_reason(int reason) {
   return fmt::format("it answers: {}", mosquitto_reason_string(reason));
 }
 
-std::optional<std::string> MqttLink::connect(const std::stop_token& stop) {
-  client_ = nullptr;  // the broker allows one client of that name
-  client_ = std::make_unique<MqttClient>(broker_, will_, wake_);
-  return client_->wait_connected(stop);
-}
-
 std::string MqttLink::give_up(std::string_view why) {
   const auto client = std::exchange(client_, nullptr);
   const bool is_lost = client == nullptr || !client->is_connected();
   if (is_lost) return client == nullptr ? std::string(why) : client->failure();
   return refused(why);
-}
-
-std::string MqttLink::refused(std::string_view why) {
-  client_ = nullptr;
-  return fmt::format("the broker {}: {}", to_text(broker_.address), why);
 }
 
 Result<Broker> read_broker(std::string_view text) {
@@ -188,9 +168,8 @@ Result<Broker> read_broker(std::string_view text) {
 
 Result<std::string> read_client_id(std::string_view id) {
   const bool is_id =
-      !id.empty() && id.size() <= kLongestClientId && std::all_of(id.begin(), id.end(), [](char c) {
-        return c > ' ' && c < '\x7F' && c != '+' && c != '#';
-      });
+      !id.empty() && id.size() <= kLongestClientId &&
+      std::ranges::all_of(id, [](char c) { return c > ' ' && c < '\x7F' && c != '+' && c != '#'; });
   if (is_id) return std::string(id);
   return invalid_field(fmt::format(
       "client_id must have 1 to {} ASCII characters without blanks, + and #", kLongestClientId));

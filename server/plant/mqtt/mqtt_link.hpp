@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "plant/mqtt/mqtt_client.hpp"
 #include "plant/plant.hpp"
 #include "plant/settings.hpp"
@@ -19,7 +18,11 @@ class TopicTemplate {
   /// @errors FieldInvalid: no topic, an unknown name, a `{` without its end.
   static Result<TopicTemplate> parse(std::string_view text);
   /// Reads one level after others: without `/`; it may begin with a name.
-  static Result<TopicTemplate> parse_level(std::string_view text);
+  static Result<TopicTemplate> parse_level(std::string_view text) {
+    if (text.find('/') != std::string_view::npos)
+      return invalid_field("one level of a topic must not have /");
+    return parse_parts(text);
+  }
 
   /// A text that the measurement lacks is `-`. @returns at most 65,535 bytes: the fields are short.
   std::string topic_of(const app::Measurement& measurement) const;
@@ -51,13 +54,20 @@ class MqttLink {
   void set_will(MqttMessage will) { will_ = std::move(will); }
   bool is_up() const { return client_ && client_->is_connected(); }
   /// Connects anew and waits until the broker has accepted. @returns the reason for a failure.
-  std::optional<std::string> connect(const std::stop_token& stop);
+  std::optional<std::string> connect(const std::stop_token& stop) {
+    client_ = nullptr;  // the broker allows one client of that name
+    client_ = std::make_unique<MqttClient>(broker_, will_, wake_);
+    return client_->wait_connected(stop);
+  }
   /// Ends the connection; the broker publishes the will.
   /// @returns why it was lost or, if it was not, `why` with the broker's name.
   std::string give_up(std::string_view why);
   /// Ends the connection after a refusal, after which the broker may have ended it too.
   /// @returns `why` with the broker's name.
-  std::string refused(std::string_view why);
+  std::string refused(std::string_view why) {
+    client_ = nullptr;
+    return fmt::format("the broker {}: {}", to_text(broker_.address), why);
+  }
   /// @pre connect succeeded
   MqttClient& client() { return *client_; }
 

@@ -24,8 +24,6 @@ AgentSession::AgentSession(http::Socket socket, std::string peer, const SessionO
       full_(socket_.get_executor()),
       silence_(socket_.get_executor()) {}
 
-void AgentSession::start() { read(); }
-
 void AgentSession::read() {
   constexpr std::size_t kPiece = 512;
   const std::size_t kept = input_.size();

@@ -1,8 +1,5 @@
 #include "plant/mtconnect/mtconnect_document.hpp"
 
-#include "base/length.hpp"
-#include "base/text.hpp"
-
 namespace fitgauge::mtconnect {
 namespace {
 
@@ -14,8 +11,8 @@ constexpr std::string_view kBufferSize = "4294967294";
 /// A key is an NMTOKEN.
 std::string key_of(std::string_view characteristic) {
   std::string key(characteristic.empty() ? std::string_view("size") : characteristic);
-  std::replace_if(
-      key.begin(), key.end(),
+  std::ranges::replace_if(
+      key,
       [](char c) {
         return !is_ascii_alphanumeric(c) && c != '-' && c != '_' && c != '.' && c != ':';
       },
@@ -94,81 +91,44 @@ std::vector<std::pair<std::string_view, std::string>> cells_of(
   return cells;
 }
 
-bool Streams::shows(std::string_view id) const {
-  const auto found = std::find_if(kDataItems.begin(), kDataItems.end(),
-                                  [id](const DataItem& item) { return item.id == id; });
-  return selection_.test(static_cast<std::size_t>(found - kDataItems.begin()));
-}
-
-void Streams::append(std::string observation) {
+void Streams::append(std::string_view element, std::string_view id, std::uint64_t sequence,
+                     Timestamp at, std::string_view attributes, std::string_view text) {
+  const auto* const item = std::ranges::find(kDataItems, id, &DataItem::id);
+  if (!selection_.test(static_cast<std::size_t>(item - kDataItems.begin()))) return;
   ++count_;
-  events_ += std::move(observation);
+  const std::string sub_type =
+      item->sub_type.empty() ? "" : fmt::format(R"( subType="{}")", item->sub_type);
+  events_ += fmt::format(R"(<{0} dataItemId="{1}"{2} sequence="{3}" timestamp="{4}"{5}>{6}</{0}>)",
+                         element, id, sub_type, sequence, format_rfc3339(at), attributes, text);
   events_ += '\n';
 }
 
-void Streams::add_availability() {
-  if (!shows("avail")) return;
-  append(fmt::format(
-      R"(<Availability dataItemId="avail" sequence="1" timestamp="{0}">AVAILABLE</Availability>)",
-      format_rfc3339(agent_.began)));
-}
-
 void Streams::add(const app::Measurement& measurement, std::uint64_t sequence) {
-  const std::string at = format_rfc3339(measurement.received_at);
+  const Timestamp at = measurement.received_at;
   if (sequence == part_sequence(measurement.row)) {
-    if (!shows("part")) return;
     const std::string part = xml_text(measurement.part_id.value_or(""));
-    return append(
-        fmt::format(R"(<PartId dataItemId="part" sequence="{}" timestamp="{}">{}</PartId>)",
-                    sequence, at, part.empty() ? kUnavailable : part));
+    return append("PartId", "part", sequence, at, "",
+                  part.empty() ? kUnavailable : std::string_view(part));
   }
-  if (!shows("feature")) return;
   std::string cells;
   for (const auto& [key, text] : cells_of(measurement)) {
     cells += fmt::format(R"(<Cell key="{}">{}</Cell>)", key, text);
   }
-  append(fmt::format(
-      R"(<FeatureMeasurementTable dataItemId="feature" sequence="{}" timestamp="{}" count="1"><Entry key="{}">{}</Entry></FeatureMeasurementTable>)",
-      sequence, at, entry_of(measurement), cells));
+  append("FeatureMeasurementTable", "feature", sequence, at, R"( count="1")",
+         fmt::format(R"(<Entry key="{}">{}</Entry>)", entry_of(measurement), cells));
 }
 
 void Streams::add_counts(const Counts& counts, std::int64_t newest, Timestamp at) {
   for (const auto& [id, count] : counts_by_item(counts)) {
-    if (!shows(id)) continue;
-    const auto item = std::find_if(kDataItems.begin(), kDataItems.end(),
-                                   [&](const DataItem& other) { return other.id == id; });
-    append(fmt::format(
-        R"(<PartCount dataItemId="{}" subType="{}" sequence="{}" timestamp="{}">{}</PartCount>)",
-        id, item->sub_type, feature_sequence(newest), format_rfc3339(at), count));
+    append("PartCount", id, feature_sequence(newest), at, "", std::to_string(count));
   }
-}
-
-void Streams::add_unavailable_part() {
-  if (!shows("part")) return;
-  append(
-      fmt::format(R"(<PartId dataItemId="part" sequence="1" timestamp="{}">UNAVAILABLE</PartId>)",
-                  format_rfc3339(agent_.began)));
-}
-
-void Streams::add_unavailable_feature() {
-  if (!shows("feature")) return;
-  append(fmt::format(
-      R"(<FeatureMeasurementTable dataItemId="feature" sequence="1" timestamp="{}" count="0">UNAVAILABLE</FeatureMeasurementTable>)",
-      format_rfc3339(agent_.began)));
 }
 
 void Streams::add_assets(std::int64_t newest, Timestamp at) {
-  if (shows("asset_changed")) {
-    append(fmt::format(
-        R"(<AssetChanged dataItemId="asset_changed" sequence="{}" timestamp="{}" assetType="{}">{}</AssetChanged>)",
-        feature_sequence(newest), format_rfc3339(at), newest > 0 ? "QIFDocumentWrapper" : "",
-        newest > 0 ? asset_id(agent_) : "UNAVAILABLE"));
-  }
-  if (shows("asset_removed")) {
-    append(fmt::format(
-        R"(<AssetRemoved dataItemId="asset_removed" sequence="1" timestamp="{}" assetType="">UNAVAILABLE</AssetRemoved>)",
-        format_rfc3339(agent_.began)));
-  }
+  append("AssetChanged", "asset_changed", feature_sequence(newest), at,
+         fmt::format(R"( assetType="{}")", newest > 0 ? "QIFDocumentWrapper" : ""),
+         newest > 0 ? asset_id(agent_) : std::string(kUnavailable));
+  append("AssetRemoved", "asset_removed", 1, agent_.began, R"( assetType="")", kUnavailable);
 }
 
 std::string asset_id(const Agent& agent) {

@@ -2,6 +2,7 @@
 
 #include <bitset>
 
+#include "api/resources.hpp"
 #include "api/services.hpp"
 #include "base/result.hpp"
 #include "http/route.hpp"
@@ -84,14 +85,16 @@ class Streams {
   explicit Streams(const Agent& agent, const Selection& selection = kEverything)
       : agent_(agent), selection_(selection) {}
 
-  void add_availability();
+  void add_availability() { append("Availability", "avail", 1, agent_.began, "", "AVAILABLE"); }
   /// Adds the observation with that sequence. @pre it is one of the measurement's two.
   void add(const app::Measurement& measurement, std::uint64_t sequence);
   /// @param newest of the measurements that are counted
   void add_counts(const Counts& counts, std::int64_t newest, Timestamp at);
   /// Adds a part without values, if no measurement is known yet.
-  void add_unavailable_part();
-  void add_unavailable_feature();
+  void add_unavailable_part() { append("PartId", "part", 1, agent_.began, "", kUnavailable); }
+  void add_unavailable_feature() {
+    append("FeatureMeasurementTable", "feature", 1, agent_.began, R"( count="0")", kUnavailable);
+  }
   /// Adds the change of the asset. @param newest of the measurements it had; 0: there was none.
   void add_assets(std::int64_t newest, Timestamp at);
   std::size_t count() const { return count_; }
@@ -100,9 +103,9 @@ class Streams {
   std::string document(std::uint64_t next) const;
 
  private:
-  /// Whether the data item of that id is shown.
-  bool shows(std::string_view id) const;
-  void append(std::string observation);
+  /// Appends an observation if its data item is selected. @param attributes after the time
+  void append(std::string_view element, std::string_view id, std::uint64_t sequence, Timestamp at,
+              std::string_view attributes, std::string_view text);
 
   const Agent agent_;
   const Selection selection_;
@@ -140,5 +143,14 @@ std::vector<http::Parameter> sample_parameters();
 /// stream of them. @param open outlives the streams.
 void sample_mtconnect(const Services& services, const OpenStreams& open,
                       const http::Request& request, http::Responder responder);
+
+/// /mtconnect/probe, current, sample, assets and asset. Nothing runs for them: they read the log.
+void add_mtconnect_routes(Routes& add);
+
+/// Whether an error of the request is returned as an MTConnect document.
+bool is_of_mtconnect(const http::Request& request);
+/// Returns a problem as an MTConnectError document. @param problem as others get it
+http::Response mtconnect_error(const Services& services, const Error& error,
+                               http::Response problem);
 
 }  // namespace fitgauge::api

@@ -1,7 +1,5 @@
 #include "plant/mtconnect/mtconnect_document.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::mtconnect {
 namespace {
 
@@ -62,8 +60,8 @@ class PathReader {
   /// A prefix, as in `m:DataItem`, is passed over.
   std::string_view name() {
     const auto word = [this] {
-      const auto end = std::find_if_not(
-          rest_.begin(), rest_.end(), [](char c) { return is_ascii_alphanumeric(c) || c == '_'; });
+      const auto end = std::ranges::find_if_not(
+          rest_, [](char c) { return is_ascii_alphanumeric(c) || c == '_'; });
       const std::string_view found = rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()));
       rest_.remove_prefix(found.size());
       return found;
@@ -120,9 +118,8 @@ std::optional<std::string_view> attribute_of(const Place& place, std::string_vie
 
 bool is_met(const Step& step, const Place& place) {
   if (step.name != "*" && step.name != place.name) return false;
-  return step.any.empty() ||
-         std::any_of(step.any.begin(), step.any.end(), [&place](const auto& all) {
-           return std::all_of(all.begin(), all.end(), [&place](const Condition& condition) {
+  return step.any.empty() || std::ranges::any_of(step.any, [&place](const auto& all) {
+           return std::ranges::all_of(all, [&place](const Condition& condition) {
              return attribute_of(place, condition.attribute) == condition.text;
            });
          });

@@ -1,9 +1,7 @@
-#include "plant/mtconnect/mtconnect_resource.hpp"
+#include "plant/mtconnect/mtconnect_document.hpp"
 
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_file.hpp"
-#include "plant/mtconnect/mtconnect_document.hpp"
-#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 namespace {

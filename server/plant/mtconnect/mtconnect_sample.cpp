@@ -1,9 +1,7 @@
 #include "plant/mtconnect/mtconnect_document.hpp"
 
 #include "api/handlers.hpp"
-#include "http/response.hpp"
 #include "service/log/log_service.hpp"
-#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -106,8 +104,7 @@ class SampleStream final : public http::BodyStream,
  public:
   SampleStream(const Services& services, OpenStreams open, Sample sample, milliseconds heartbeat)
       : services_(services), open_(std::move(open)), sample_(sample), heartbeat_(heartbeat) {}
-  SampleStream(const SampleStream&) = delete;
-  SampleStream& operator=(const SampleStream&) = delete;
+  SampleStream& operator=(SampleStream&&) = delete;  // neither copied nor moved
   ~SampleStream() override { --*open_; }
 
   void next(http::ChunkSink sink) override {

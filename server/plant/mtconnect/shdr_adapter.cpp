@@ -2,10 +2,7 @@
 
 #include <boost/asio/ip/address.hpp>
 
-#include "base/text.hpp"
-#include "base/thread.hpp"
 #include "service/events/event_service.hpp"
-#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::mtconnect {
 namespace {
@@ -29,9 +26,8 @@ Line shared(std::string line) { return std::make_shared<const std::string>(std::
 
 std::string shdr_text(std::string_view text) {
   std::string plain(text);
-  std::replace_if(
-      plain.begin(), plain.end(),
-      [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7F'; }, ' ');
+  std::ranges::replace_if(
+      plain, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7F'; }, ' ');
   plain = trim(plain);
   if (plain.empty()) return std::string(kUnavailable);
   if (plain.front() != '"' && plain.find('|') == plain.npos) return plain;
@@ -62,8 +58,7 @@ std::string shdr_line(const Counts& counts, Timestamp at) {
   return line + '\n';
 }
 
-/// Everything except calls from outside runs on its thread. Results of the storage are posted
-/// there.
+/// All but calls from outside runs on its thread. Results of the storage are posted there.
 class ShdrAdapter::Loop final : public app::CommitListener,
                                 public std::enable_shared_from_this<Loop> {
  public:
@@ -194,9 +189,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
   void follow() {
     if (is_reading_ || agents_.empty()) return;
     if (phase_ != Phase::Following) return begin();
-    if (std::any_of(agents_.begin(), agents_.end(), [](const auto& a) { return a->is_full(); })) {
-      return;
-    }
+    if (std::ranges::any_of(agents_, [](const auto& a) { return a->is_full(); })) return;
     app::MeasurementQuery query;
     query.history = true;
     list(query, position_, kPage,

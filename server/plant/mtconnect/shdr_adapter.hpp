@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/clock.hpp"
 #include "http/engine/asio.hpp"
 #include "http/server.hpp"
 #include "plant/mtconnect/mtconnect_document.hpp"
@@ -25,11 +24,10 @@ class AgentSession : public std::enable_shared_from_this<AgentSession> {
   };
 
   AgentSession(http::Socket socket, std::string peer, const SessionOptions& options, Hooks hooks);
-  AgentSession(const AgentSession&) = delete;
-  AgentSession& operator=(const AgentSession&) = delete;
+  AgentSession& operator=(AgentSession&&) = delete;  // neither copied nor moved
 
   /// Reads the agent's lines: `* PING` gets its `* PONG`, other lines are ignored.
-  void start();
+  void start() { read(); }
   /// A line with its end, or several.
   void send(std::shared_ptr<const std::string> lines);
   /// Returns whether too much waits for it: send nothing more until has_room.
@@ -85,8 +83,7 @@ struct AdapterOptions {
   http::ListenAddress listen{};
   std::size_t most_agents = 16;  ///< further agents are closed at once
   SessionOptions session{};
-  /// Reports an agent that was refused or disconnected: its address and the reason. On the
-  /// adapter's thread.
+  /// Reports an agent that was sent away: address and reason. On the adapter's thread.
   std::function<void(std::string_view peer, std::string_view why)> sent_away{};
 };
 
@@ -101,8 +98,7 @@ class ShdrAdapter {
                                                     app::EventService& events, const Clock& clock);
   /// Closes every connection.
   ~ShdrAdapter();
-  ShdrAdapter(const ShdrAdapter&) = delete;
-  ShdrAdapter& operator=(const ShdrAdapter&) = delete;
+  ShdrAdapter& operator=(ShdrAdapter&&) = delete;  // neither copied nor moved
 
   /// The actual port if 0 was requested.
   std::uint16_t port() const;

@@ -2,8 +2,6 @@
 
 #include <sparkplug/sparkplug_wire.pb.h>
 
-#include "base/json/json_value.hpp"
-
 namespace fitgauge::connections {
 namespace {
 
@@ -70,10 +68,9 @@ std::string sparkplug_payload(Timestamp sent_at, std::optional<std::uint8_t> seq
 bool asks_for_rebirth(std::string_view bytes) {
   sparkplug_wire::Payload payload;
   if (!payload.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) return false;
-  return std::any_of(payload.metrics().begin(), payload.metrics().end(),
-                     [](const sparkplug_wire::Metric& metric) {
-                       return metric.name() == kRebirth && metric.boolean_value();
-                     });
+  return std::ranges::any_of(payload.metrics(), [](const sparkplug_wire::Metric& metric) {
+    return metric.name() == kRebirth && metric.boolean_value();
+  });
 }
 
 const std::array<DeviceMetric, 17> kDeviceMetrics = {{
@@ -114,13 +111,6 @@ const std::array<DeviceMetric, 17> kDeviceMetrics = {{
 EdgeNode::EdgeNode(const SparkplugOptions& options, const Clock& clock, Send send)
     : options_(options), clock_(clock), send_(std::move(send)), next_alias_(kPositionAlias + 1) {}
 
-void EdgeNode::begin_session(std::uint8_t number) { session_ = number; }
-
-std::string EdgeNode::topic(std::string_view type, std::string_view device) const {
-  return fmt::format("spBv1.0/{}/{}/{}{}{}", options_.group, type, options_.node,
-                     device.empty() ? "" : "/", device);
-}
-
 SparkplugMetric EdgeNode::session_metric() const {
   return {
       .name = "bdSeq", .type = Type::Int64, .at = clock_.now(), .value = std::int64_t{session_}};
@@ -153,8 +143,6 @@ void EdgeNode::give_birth() {
          .value = position_}});
   for (const Device& device : devices_) send_birth(device);
 }
-
-void EdgeNode::send_birth(const Device& device) { send("DBIRTH", device.id, device.metrics); }
 
 EdgeNode::Device& EdgeNode::device_of(const std::string& id) {
   if (const auto known = by_id_.find(id); known != by_id_.end()) {

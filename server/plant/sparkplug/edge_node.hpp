@@ -73,7 +73,7 @@ class EdgeNode {
   EdgeNode(const SparkplugOptions& options, const Clock& clock, Send send);
 
   /// A session, numbered as its CONNECT is: 0 to 255.
-  void begin_session(std::uint8_t number);
+  void begin_session(std::uint8_t number) { session_ = number; }
   /// The message that the broker publishes if the session breaks, and the node before it ends one.
   MqttMessage death() const;
   /// The births of the node and of all its devices.
@@ -84,7 +84,10 @@ class EdgeNode {
   /// Number of measurements of the log to report. @pre give_birth
   void tell_position(std::int64_t position);
 
-  std::string topic(std::string_view type, std::string_view device = {}) const;
+  std::string topic(std::string_view type, std::string_view device = {}) const {
+    return fmt::format("spBv1.0/{}/{}/{}{}{}", options_.group, type, options_.node,
+                       device.empty() ? "" : "/", device);
+  }
 
  private:
   struct Device {
@@ -96,7 +99,7 @@ class EdgeNode {
 
   void send(std::string_view type, std::string_view device,
             const std::vector<SparkplugMetric>& metrics);
-  void send_birth(const Device& device);
+  void send_birth(const Device& device) { send("DBIRTH", device.id, device.metrics); }
   SparkplugMetric session_metric() const;
   Device& device_of(const std::string& id);
 

@@ -1,9 +1,5 @@
 #include "plant/virtual_control/virtual_control.hpp"
 
-#include "base/text.hpp"
-#include "plant/lsv2/link/requests.hpp"
-#include "plant/virtual_control/virtual_disk.hpp"
-
 namespace fitgauge::virtual_control {
 
 using namespace control_link;
@@ -51,9 +47,8 @@ std::optional<Telegram> ControlConversation::answer(const Telegram& telegram) {
 
 ControlResult<void> ControlConversation::needs(
     std::initializer_list<std::string_view> logins) const {
-  const bool has_one = std::any_of(logins.begin(), logins.end(), [this](std::string_view login) {
-    return logins_.contains(login);
-  });
+  const bool has_one = std::ranges::any_of(
+      logins, [this](std::string_view login) { return logins_.contains(login); });
   if (!has_one) return ControlError::NoPrivilege;
   return {};
 }
@@ -65,8 +60,7 @@ ControlResult<void> ControlConversation::needs_to_write(std::string_view login) 
 }
 
 ControlConversation::Reply ControlConversation::reply(const Login& login) {
-  const bool is_free = std::find(std::begin(kFreeLogins), std::end(kFreeLogins), login.name) !=
-                       std::end(kFreeLogins);
+  const bool is_free = std::ranges::find(kFreeLogins, login.name) != std::end(kFreeLogins);
   const bool may = is_free || (login.name == kFilePlc &&
                                (!state_.model.asks_plc_password || login.password == kPlcPassword));
   if (!may) return ControlError::NoLogin;
@@ -108,15 +102,6 @@ ControlConversation::Reply ControlConversation::reply(const ReadVersion& request
       return encode(Version{"R"});
     default: return ControlError::WrongParameter;
   }
-}
-
-ControlConversation::Reply ControlConversation::reply(const ReadParameters&) {
-  TRY(needs({"INSPECT"}));
-  return encode(control_parameters());
-}
-
-ControlConversation::Reply ControlConversation::reply(const ReadSystemInformation&) {
-  return ControlError::WrongParameter;
 }
 
 ControlConversation::Reply ControlConversation::reply(const SystemCommand& request) {
@@ -195,12 +180,6 @@ ControlConversation::Reply ControlConversation::run_program(const std::string& p
   }
   const auto program = TRY(file_path(path, directory_));
   TRY(state_.machine.start(program));
-  return encode(control_link::Accepted{});
-}
-
-ControlConversation::Reply ControlConversation::reply(const LockKeyboard& request) {
-  TRY(needs_to_write("MONITOR"));
-  state_.keyboard_locked = request.locked;
   return encode(control_link::Accepted{});
 }
 

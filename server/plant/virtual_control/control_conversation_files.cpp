@@ -1,8 +1,6 @@
 // The part of a session for directories and files, and their transfers.
 
-#include "base/text.hpp"
 #include "plant/virtual_control/virtual_control.hpp"
-#include "plant/virtual_control/virtual_disk.hpp"
 
 namespace fitgauge::virtual_control {
 
@@ -127,14 +125,6 @@ ControlConversation::Reply ControlConversation::copy(const std::string& source,
   return accepted(moves ? state_.disk.rename(from, to) : state_.disk.copy(from, to));
 }
 
-ControlConversation::Reply ControlConversation::reply(const CopyFile& request) {
-  return copy(request.source, request.target, false);
-}
-
-ControlConversation::Reply ControlConversation::reply(const RenameFile& request) {
-  return copy(request.source, request.target, true);
-}
-
 ControlConversation::Reply ControlConversation::reply(const Upload& request) {
   TRY(needs_to_write(kFile));
   auto path = TRY(file_path(request.path, directory_));
@@ -162,7 +152,7 @@ ControlConversation::Reply ControlConversation::reply(const EndOfData&) {
   auto* const receiving = std::get_if<Receiving>(&transfer_);
   if (receiving == nullptr) return ControlError::Unexpected;
   std::string& bytes = receiving->bytes;
-  if (!receiving->binary) std::replace(bytes.begin(), bytes.end(), '\0', '\n');
+  if (!receiving->binary) std::ranges::replace(bytes, '\0', '\n');
   const auto written = state_.disk.write(receiving->path, bytes);
   transfer_ = std::monostate();
   if (!acknowledges_end_) return std::optional<Telegram>();

@@ -1,7 +1,5 @@
 #include "plant/virtual_control/virtual_disk.hpp"
 
-#include "plant/lsv2/link/payload.hpp"
-
 namespace fitgauge::virtual_control {
 namespace {
 
@@ -110,17 +108,6 @@ control_link::Axes MachineView::axes() {
   return shown;
 }
 
-Mode MachineView::mode() {
-  newest();
-  return mode_;
-}
-
-/// A key counts after a program that has begun before it.
-void MachineView::set_mode(Mode mode) {
-  newest();
-  mode_ = mode;
-}
-
 ProgramState MachineView::state() {
   const auto run = newest();
   return run == nullptr ? ProgramState::Idle : shown(run->state());
@@ -144,8 +131,6 @@ control_link::SpindleTool MachineView::tool() {
           .radius = {state.tool_radius}};
 }
 
-std::vector<interpreter::RunMessage> MachineView::errors() { return look().errors; }
-
 control_link::ControlResult<std::shared_ptr<app::ActiveRun>> MachineView::start(
     const interpreter::ControlPath& program) {
   const auto run = newest();
@@ -154,10 +139,6 @@ control_link::ControlResult<std::shared_ptr<app::ActiveRun>> MachineView::start(
   if (!started) return refusal_of_program(started.error());
   started_ = *std::move(started);
   return started_;
-}
-
-void MachineView::stop() {
-  if (const auto run = newest(); run != nullptr) runs_.cancel(run);
 }
 
 control_link::Parameters control_parameters() {

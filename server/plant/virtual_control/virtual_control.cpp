@@ -1,7 +1,5 @@
 #include "plant/virtual_control/virtual_control.hpp"
 
-#include "base/thread.hpp"
-
 namespace fitgauge::virtual_control {
 namespace {
 
@@ -15,9 +13,6 @@ constexpr ControlModel kModels[] = {
      .is_itnc = true,
      .asks_plc_password = false},
 };
-
-/// Maximum for all transfers of all clients.
-constexpr std::size_t kTransferBytes = std::size_t{24} << 20;
 
 std::string mdi_program() { return "BEGIN PGM $MDI MM\nEND PGM $MDI MM\n"; }
 
@@ -71,23 +66,11 @@ void keep_files(app::FileService& files, const std::shared_ptr<app::ActiveRun>& 
 
 std::span<const ControlModel> control_models() { return kModels; }
 
-const ControlModel* find_model(std::string_view name) {
-  for (const ControlModel& model : kModels) {
-    if (model.name == name) return &model;
-  }
-  return nullptr;
-}
-
-struct VirtualControl::Parts {
-  ControlState state;
-  std::unique_ptr<control_link::LinkServer> server{};  // ends first
-};
-
 Result<std::unique_ptr<VirtualControl>> VirtualControl::start(VirtualControlOptions options,
                                                               app::FileService& files,
                                                               app::RunService& runs) {
-  const ControlModel* const model = find_model(options.model);
-  if (model == nullptr) {
+  const auto* const model = std::ranges::find(kModels, options.model, &ControlModel::name);
+  if (model == std::end(kModels)) {
     return Error{ErrorCode::ConfigInvalid, "unknown control model '" + options.model + "'"};
   }
   TRY(bring_files(files, *model, options.setup));
@@ -96,25 +79,18 @@ Result<std::unique_ptr<VirtualControl>> VirtualControl::start(VirtualControlOpti
     if (run) keep_files(files, *run);
     return run;
   };
-  auto parts = std::unique_ptr<Parts>(
-      new Parts{.state = {.model = *model,
-                          .is_writable = options.is_writable,
-                          .disk = VirtualDisk(files, runs),
-                          .machine = MachineView(runs, std::move(options.setup), std::move(start)),
-                          .transfers = ByteBudget(kTransferBytes)}});
-  parts->state.parameters.emplace(model->language_parameter(), model->language());
-  auto server = control_link::LinkServer::start(
+  std::unique_ptr<VirtualControl> control(new VirtualControl(
+      {.model = *model,
+       .is_writable = options.is_writable,
+       .disk = VirtualDisk(files, runs),
+       .machine = MachineView(runs, std::move(options.setup), std::move(start))}));
+  ControlState& state = control->state_;
+  state.parameters.emplace(model->language_parameter(), model->language());
+  control->server_ = TRY(control_link::LinkServer::start(
       std::move(options.link),
-      {.converse = [state =
-                        &parts->state] { return std::make_unique<ControlConversation>(*state); },
-       .sent_away = std::move(options.sent_away)});
-  if (!server) return server.error();
-  parts->server = *std::move(server);
-  return std::unique_ptr<VirtualControl>(new VirtualControl(std::move(parts)));
+      {.converse = [&state] { return std::make_unique<ControlConversation>(state); },
+       .sent_away = std::move(options.sent_away)}));
+  return control;
 }
-
-VirtualControl::VirtualControl(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
-VirtualControl::~VirtualControl() = default;
-std::uint16_t VirtualControl::port() const { return parts_->server->port(); }
 
 }  // namespace fitgauge::virtual_control

@@ -1,8 +1,6 @@
 #pragma once
 
-#include "plant/lsv2/link/answers.hpp"
 #include "plant/lsv2/link/link_server.hpp"
-#include "plant/lsv2/link/requests.hpp"
 #include "plant/virtual_control/virtual_disk.hpp"
 
 namespace fitgauge::virtual_control {
@@ -27,16 +25,6 @@ struct ControlModel {
 };
 
 std::span<const ControlModel> control_models();
-/// Finds a model; null if the name is unknown.
-const ControlModel* find_model(std::string_view name);
-
-}  // namespace fitgauge::virtual_control
-
-namespace fitgauge::app {
-class FileService;
-}  // namespace fitgauge::app
-
-namespace fitgauge::virtual_control {
 
 struct VirtualControlOptions {
   control_link::LinkServerOptions link;
@@ -45,6 +33,52 @@ struct VirtualControlOptions {
   machine::Setup setup;      ///< of the machine it shows
   StartProgram start;
   std::function<void(std::string_view peer, std::string_view why)> sent_away{};
+};
+
+/// A file of clients/nc.
+struct ExampleProgram {
+  std::string_view path;  ///< `8255/8255.h`, below nc_prog
+  std::string_view text;
+};
+
+std::span<const ExampleProgram> example_programs();
+
+/// The bytes that one transfer uses, of those that all clients' transfers may use together;
+/// released with it. Used by one thread.
+class ByteShare {
+ public:
+  /// @param left bytes that nobody uses; outlives it.
+  explicit ByteShare(std::size_t& left) : left_(&left) {}
+  ByteShare(ByteShare&& other) noexcept
+      : left_(other.left_), taken_(std::exchange(other.taken_, 0)) {}
+  ByteShare& operator=(ByteShare&& other) noexcept {
+    std::swap(left_, other.left_);
+    std::swap(taken_, other.taken_);
+    return *this;
+  }
+  ~ByteShare() { *left_ += taken_; }
+
+  /// @returns false if there are not so many left; then nothing is reserved.
+  bool take(std::size_t bytes) {
+    if (bytes > *left_) return false;
+    *left_ -= bytes;
+    taken_ += bytes;
+    return true;
+  }
+
+ private:
+  std::size_t* left_;
+  std::size_t taken_ = 0;
+};
+
+/// State that all clients share.
+struct ControlState {
+  const ControlModel& model;
+  bool is_writable = false;
+  VirtualDisk disk;
+  MachineView machine;
+  std::size_t transfers = std::size_t{24} << 20;    ///< bytes left for those of all clients
+  std::map<std::string, std::string> parameters{};  ///< of the machine, by name
 };
 
 /// The simulated machine at an LSV-2 port. It adds the files of every control: an MDI program, a
@@ -56,71 +90,13 @@ class VirtualControl {
   static Result<std::unique_ptr<VirtualControl>> start(VirtualControlOptions options,
                                                        app::FileService& files,
                                                        app::RunService& runs);
-  /// Closes every connection.
-  ~VirtualControl();
-
-  std::uint16_t port() const;
+  std::uint16_t port() const { return server_->port(); }
 
  private:
-  struct Parts;
-  explicit VirtualControl(std::unique_ptr<Parts> parts);
+  explicit VirtualControl(ControlState state) : state_(std::move(state)) {}
 
-  std::unique_ptr<Parts> parts_;
-};
-
-/// A file of clients/nc.
-struct ExampleProgram {
-  std::string_view path;  ///< `8255/8255.h`, below nc_prog
-  std::string_view text;
-};
-
-std::span<const ExampleProgram> example_programs();
-
-/// Maximum bytes of all clients' transfers together. Used by one thread.
-class ByteBudget {
- public:
-  explicit ByteBudget(std::size_t bytes) : left_(bytes) {}
-
- private:
-  friend class ByteShare;
-  std::size_t left_;
-};
-
-/// The part of the budget that one transfer uses; released with it.
-class ByteShare {
- public:
-  explicit ByteShare(ByteBudget& budget) : budget_(&budget) {}
-  ByteShare(ByteShare&& other) noexcept
-      : budget_(other.budget_), taken_(std::exchange(other.taken_, 0)) {}
-  ByteShare& operator=(ByteShare&& other) noexcept {
-    std::swap(budget_, other.budget_);
-    std::swap(taken_, other.taken_);
-    return *this;
-  }
-  ~ByteShare() { budget_->left_ += taken_; }
-
-  /// @returns false if there are not so many left; then nothing is reserved.
-  bool take(std::size_t bytes) {
-    if (bytes > budget_->left_) return false;
-    budget_->left_ -= bytes;
-    taken_ += bytes;
-    return true;
-  }
-
- private:
-  ByteBudget* budget_;
-  std::size_t taken_ = 0;
-};
-
-/// State that all clients share.
-struct ControlState {
-  const ControlModel& model;
-  bool is_writable = false;
-  VirtualDisk disk;
-  MachineView machine;
-  ByteBudget transfers;
-  std::map<std::string, std::string> parameters{};  ///< of the machine, by name
-  bool keyboard_locked = false;
+  ControlState state_;
+  std::unique_ptr<control_link::LinkServer> server_;  // last: it closes every connection
 };
 
 /// One client's logins, directory and transfer. A telegram without its login is NoPrivilege; one
@@ -155,8 +131,13 @@ class ControlConversation final : public control_link::Conversation {
   Reply reply(const control_link::Login& login);
   Reply reply(const control_link::Logout& logout);
   Reply reply(const control_link::ReadVersion& request);
-  Reply reply(const control_link::ReadParameters& request);
-  Reply reply(const control_link::ReadSystemInformation& request);
+  Reply reply(const control_link::ReadParameters&) {
+    TRY(needs({"INSPECT"}));
+    return encode(control_parameters());
+  }
+  Reply reply(const control_link::ReadSystemInformation&) {
+    return control_link::ControlError::WrongParameter;
+  }
   Reply reply(const control_link::SystemCommand& request);
   Reply reply(const control_link::ChangeDirectory& request);
   Reply reply(const control_link::ReadDirectory& request);
@@ -165,15 +146,22 @@ class ControlConversation final : public control_link::Conversation {
   Reply reply(const control_link::DeleteDirectory& request);
   Reply reply(const control_link::ReadFileInformation& request);
   Reply reply(const control_link::DeleteFile& request);
-  Reply reply(const control_link::CopyFile& request);
-  Reply reply(const control_link::RenameFile& request);
+  Reply reply(const control_link::CopyFile& request) {
+    return copy(request.source, request.target, false);
+  }
+  Reply reply(const control_link::RenameFile& request) {
+    return copy(request.source, request.target, true);
+  }
   Reply reply(const control_link::Upload& request);
   Reply reply(const control_link::Download& request);
   Reply reply(const control_link::ReadRunInformation& request);
   Reply reply(const control_link::ReadMemory& request);
   Reply reply(const control_link::ReadMachineParameter& request);
   Reply reply(const control_link::WriteMachineParameter& request);
-  Reply reply(const control_link::LockKeyboard& request);
+  Reply reply(const control_link::LockKeyboard&) {
+    TRY(needs_to_write("MONITOR"));
+    return encode(control_link::Accepted{});
+  }
   Reply reply(const control_link::PressKey& request);
   Reply reply(const control_link::ReadDataPath& request);
   Reply reply(const control_link::FileBlock& block);

@@ -1,8 +1,5 @@
 #include "plant/virtual_control/virtual_disk.hpp"
 
-#include "base/text.hpp"
-#include "base/thread.hpp"
-
 namespace fitgauge::virtual_control {
 namespace {
 
@@ -10,7 +7,7 @@ using control_link::ControlError;
 
 std::string absolute(std::string_view text, std::string_view directory) {
   std::string path(text);
-  std::replace(path.begin(), path.end(), '/', '\\');
+  std::ranges::replace(path, '/', '\\');
   if (path.find(':') != std::string::npos) return path;
   if (path.starts_with('\\')) return std::string(kRoot.substr(0, 4)) + path;
   return std::string(directory) + path;
@@ -23,8 +20,8 @@ constexpr std::size_t kMostMadeBytes = std::size_t{1} << 20;
 constexpr std::string_view kEveryControls[] = {"TNC:\\", "TNC:\\nc_prog\\", "TNC:\\table\\"};
 
 bool is_every_controls(std::string_view directory) {
-  return std::any_of(std::begin(kEveryControls), std::end(kEveryControls),
-                     [&](std::string_view each) { return ascii_iequals(each, directory); });
+  return std::ranges::any_of(kEveryControls,
+                             [&](std::string_view each) { return ascii_iequals(each, directory); });
 }
 
 ControlError refusal_of(const Error& error) {
@@ -200,9 +197,8 @@ VirtualDisk::Answer<std::shared_ptr<const std::string>> VirtualDisk::read(const 
 
 VirtualDisk::Answer<void> VirtualDisk::write(const Path& path, std::string_view bytes) {
   if (!has_directory(path.directory())) return ControlError::NoDirectory;
-  const auto written = wait_for<bool>(
-      [&](auto done) { files_.write(path, bytes, std::nullopt, {}, std::move(done)); });
-  if (!written) return written.error();
+  TRY(wait_for<bool>(
+      [&](auto done) { files_.write(path, bytes, std::nullopt, {}, std::move(done)); }));
   hide(path);
   return {};
 }
@@ -222,16 +218,6 @@ VirtualDisk::Answer<void> VirtualDisk::copy(const Path& source, const Path& targ
   const auto bytes = TRY(read(source));
   if (find(target)) return ControlError::FileExists;
   return write(target, *bytes);
-}
-
-VirtualDisk::Answer<void> VirtualDisk::rename(const Path& source, const Path& target) {
-  TRY(copy(source, target));
-  return remove(source);
-}
-
-/// Uses the stored file from now on, not the run's file.
-void VirtualDisk::hide(const Path& path) {
-  if (run_files().contains(path.key())) hidden_.insert(path.key());
 }
 
 }  // namespace fitgauge::virtual_control

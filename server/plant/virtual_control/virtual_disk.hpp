@@ -2,7 +2,7 @@
 
 #include "nc/machine/machine_setup.hpp"
 #include "nc/program/control_disk.hpp"
-#include "plant/lsv2/link/answers.hpp"
+#include "plant/lsv2/link/messages.hpp"
 #include "plant/lsv2/link/payload.hpp"
 #include "service/files/file_service.hpp"
 #include "service/runs/run_service.hpp"
@@ -63,7 +63,10 @@ class VirtualDisk {
   /// @errors NoFile, NoDirectory, FileExists, NoSpace.
   Answer<void> copy(const Path& source, const Path& target);
   /// @errors as copy.
-  Answer<void> rename(const Path& source, const Path& target);
+  Answer<void> rename(const Path& source, const Path& target) {
+    TRY(copy(source, target));
+    return remove(source);
+  }
 
  private:
   using RunFiles = std::shared_ptr<const std::vector<interpreter::WrittenFile>>;
@@ -72,7 +75,10 @@ class VirtualDisk {
   /// Every file whose path begins so, by key.
   Answer<std::map<std::string, DiskEntry>> files_below(std::string_view prefix);
   void keep_directory(std::string_view directory);
-  void hide(const Path& path);
+  /// Uses the stored file from now on, not the run's file.
+  void hide(const Path& path) {
+    if (run_files().contains(path.key())) hidden_.insert(path.key());
+  }
 
   app::FileService& files_;
   app::RunService& runs_;
@@ -96,21 +102,28 @@ class MachineView {
       : runs_(runs), setup_(std::move(setup)), start_(std::move(start)) {}
 
   control_link::Axes axes();
-  control_link::Mode mode();
+  control_link::Mode mode() {
+    newest();
+    return mode_;
+  }
   control_link::ProgramState state();
   control_link::ProgramStack program();
   control_link::SpindleTool tool();
-  std::vector<interpreter::RunMessage> errors();
+  std::vector<interpreter::RunMessage> errors() { return look().errors; }
 
-  const machine::Setup& setup() const { return setup_; }
-
-  void set_mode(control_link::Mode mode);
+  /// A key counts after a program that has begun before it.
+  void set_mode(control_link::Mode mode) {
+    newest();
+    mode_ = mode;
+  }
   /// @errors WrongMode while a program runs; NoFile; BadFormat: it has errors; InUse: too many
   /// wait.
   control_link::ControlResult<std::shared_ptr<app::ActiveRun>> start(
       const interpreter::ControlPath& program);
   /// Ends what runs, soon.
-  void stop();
+  void stop() {
+    if (const auto run = newest(); run != nullptr) runs_.cancel(run);
+  }
 
  private:
   std::shared_ptr<app::ActiveRun> newest();

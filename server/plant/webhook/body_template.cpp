@@ -13,7 +13,7 @@ constexpr std::string_view kClose = "}}";
 Error invalid(std::string message) { return {ErrorCode::FieldInvalid, std::move(message)}; }
 
 bool is_field(std::string_view name) {
-  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+  return !name.empty() && std::ranges::all_of(name, [](char c) {
     return is_ascii_alphanumeric(c) || c == '_' || c == '.';
   });
 }

@@ -58,8 +58,7 @@ bool is_reserved(std::string_view name) {
   constexpr std::array kNames = {
       "connection"sv, "content-length"sv,    "content-type"sv, "host"sv,   "expect"sv,
       "te"sv,         "transfer-encoding"sv, "trailer"sv,      "upgrade"sv};
-  return name.starts_with("webhook-") ||
-         std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+  return name.starts_with("webhook-") || std::ranges::find(kNames, name) != kNames.end();
 }
 
 std::string fault_of_header(std::string_view name, const JsonValue& value) {
@@ -67,45 +66,26 @@ std::string fault_of_header(std::string_view name, const JsonValue& value) {
     return is_ascii_alphanumeric(c) ||
            std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos;
   };
-  if (name.empty() || name.size() > kLongestHeader ||
-      !std::all_of(name.begin(), name.end(), is_token)) {
+  if (name.empty() || name.size() > kLongestHeader || !std::ranges::all_of(name, is_token)) {
     return fmt::format("a header name must have 1 to {} letters, digits and -", kLongestHeader);
   }
   if (is_reserved(ascii_lower(name))) return fmt::format("{} is set by the service", name);
   if (value.is(JsonValue::Kind::Null)) return "no value is stored: give one";
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
   if (!value.is(JsonValue::Kind::String) || value.text.empty() || value.text.size() > kLongestUrl ||
-      std::any_of(value.text.begin(), value.text.end(), is_control)) {
+      std::ranges::any_of(value.text, is_control)) {
     return fmt::format("a header value must be a text of 1 to {} bytes without control characters",
                        kLongestUrl);
   }
   return {};
 }
 
-/// An object of names and values. A value null is the stored one (definition.cpp).
-struct HeadersForm {
-  std::string schema(api::Side) const {
-    return api::schema::map(api::schema::null_or(api::schema::text(kLongestUrl)));
-  }
-  bool read(api::FieldReader& fields, std::string_view name, std::vector<std::string>& to) const {
-    const JsonValue* const object = fields.object(name);
-    if (object == nullptr) return false;
-    if (object->members.size() > kMostHeaders) {
-      fields.report(ErrorCode::FieldInvalid, name,
-                    fmt::format("headers must have at most {} members", kMostHeaders));
-      return false;
-    }
-    for (const auto& [header, value] : object->members) {
-      const std::string fault = fault_of_header(header, value);
-      if (fault.empty()) {
-        to.push_back(fmt::format("{}: {}", header, value.text));
-      } else {
-        fields.errors().add(ErrorCode::FieldInvalid, pointer_to(fields.at(name), header), fault);
-      }
-    }
-    return true;
-  }
-};
+/// A line of a request. A value null is the stored one (connections.cpp).
+Result<std::string> read_header(std::string_view name, const JsonValue& value) {
+  const std::string fault = fault_of_header(name, value);
+  if (!fault.empty()) return invalid_field(fault);
+  return fmt::format("{}: {}", name, value.text);
+}
 
 struct BodyForm {
   std::string schema(api::Side) const { return "{}"; }
@@ -126,7 +106,9 @@ template <class V>
 void members(V& v, WebhookOptions& options) {
   v.member("url", options.url, By{kLongestUrl, read_url}, "https://host/path");
   v.optional("timeout_s", options.timeout, Within{1, 30}, "Timeout of a request (default: 15)");
-  v.optional("headers", options.headers, HeadersForm{},
+  v.optional("headers", options.headers,
+             EachMember{kMostHeaders, "headers ",
+                        api::schema::null_or(api::schema::text(kLongestUrl)), read_header},
              "Headers of each request, as Authorization. Values are not shown; null keeps the "
              "stored value "
              "while the url stays, as leaving headers out does");
@@ -149,7 +131,7 @@ std::string begun_event(std::string_view type, Timestamp time) {
 /// Whether the receiver refuses only this event, and not all.
 bool is_of_the_event(long status) {
   constexpr std::array kStatuses = {400L, 413L, 415L, 422L};
-  return std::find(kStatuses.begin(), kStatuses.end(), status) != kStatuses.end();
+  return std::ranges::find(kStatuses, status) != kStatuses.end();
 }
 
 std::string reason_of(const HttpAnswer& answer) {
@@ -162,89 +144,83 @@ class Webhook final : public Outlet {
   Webhook(const WebhookOptions& options, const Plant& plant)
       : plant_(plant), options_(options), client_({.may_reach_private = plant.may_reach_private}) {}
 
-  Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) override;
+  Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) override {
+    return post(measurements, stop, [](const Outgoing& outgoing) {
+      const app::Measurement& measurement = **outgoing;
+      Posted posted{.id = app::measurement_id_text(measurement.id, measurement.origin),
+                    .body = begun_event("measurement.recorded", measurement.received_at)};
+      app::append_record(posted.body, measurement);
+      posted.body += '}';
+      return posted;
+    });
+  }
+
   Delivery deliver_events(std::span<const OutgoingEvent> events,
-                          const std::stop_token& stop) override;
+                          const std::stop_token& stop) override {
+    return post(events, stop, [](const OutgoingEvent& event) {
+      return Posted{.id = event_text(event),
+                    .body = begun_event(event.type, event.at) + event.payload + '}'};
+    });
+  }
+
   /// @param event the body, or the input of the template
-  HttpAnswer send(std::string_view id, std::string_view event, const std::stop_token& stop);
+  HttpAnswer send(std::string_view id, std::string_view event, const std::stop_token& stop) {
+    const std::string made = options_.body.is_empty() ? "" : options_.body.body_of(id, event);
+    const std::string_view body = made.empty() ? event : made;
+    const std::string timestamp =
+        std::to_string(plant_.clock.now().nanoseconds / kNanosecondsPerSecond);
+    std::vector<std::string> headers = {
+        "Content-Type: application/json", fmt::format("webhook-id: {}", id),
+        fmt::format("webhook-timestamp: {}", timestamp),
+        fmt::format("webhook-signature: {}",
+                    webhook_signature(options_.keys, id, timestamp, body))};
+    headers.insert(headers.end(), options_.headers.begin(), options_.headers.end());
+    return client_.call({.url = options_.url,
+                         .headers = std::move(headers),
+                         .body = body,
+                         .timeout = options_.timeout},
+                        [&stop] { return !stop.stop_requested(); });
+  }
 
  private:
   struct Posted {
     std::string id;
     std::string body;
   };
+
   /// Posts the request that `compose` makes from each item, one by one.
   template <class Items, class Compose>
-  Delivery post(const Items& items, const std::stop_token& stop, const Compose& compose);
+  Delivery post(const Items& items, const std::stop_token& stop, const Compose& compose) {
+    Delivery delivery;
+    const auto until = std::chrono::steady_clock::now() + kLongestStretch;
+    for (const auto& item : items) {
+      const Posted posted = compose(item);
+      const HttpAnswer answer = send(posted.id, posted.body, stop);
+      ++attempts_;
+      if (answer.status < 200 || answer.status > 299) {
+        const bool is_given_up = is_of_the_event(answer.status) && attempts_ >= kMostAttempts;
+        if (!is_given_up) {
+          delivery.failure = reason_of(answer);
+          delivery.wait = answer.retry_after;
+          delivery.wants_no_more = answer.status == 410;
+          return delivery;
+        }
+        delivery.refused.push_back(
+            {.measurement = posted.id, .reason = reason_of(answer), .at = plant_.clock.now()});
+      }
+      attempts_ = 0;
+      ++delivery.dealt_with;
+      delivery.bytes += posted.body.size();
+      if (std::chrono::steady_clock::now() > until) break;
+    }
+    return delivery;
+  }
 
   const Plant& plant_;
   const WebhookOptions options_;
   http_client::HttpClient client_;
   int attempts_ = 0;  ///< of the first event that is not dealt with
 };
-
-HttpAnswer Webhook::send(std::string_view id, std::string_view event, const std::stop_token& stop) {
-  const std::string made = options_.body.is_empty() ? "" : options_.body.body_of(id, event);
-  const std::string_view body = made.empty() ? event : made;
-  const std::string timestamp =
-      std::to_string(plant_.clock.now().nanoseconds / kNanosecondsPerSecond);
-  std::vector<std::string> headers = {
-      "Content-Type: application/json", fmt::format("webhook-id: {}", id),
-      fmt::format("webhook-timestamp: {}", timestamp),
-      fmt::format("webhook-signature: {}", webhook_signature(options_.keys, id, timestamp, body))};
-  headers.insert(headers.end(), options_.headers.begin(), options_.headers.end());
-  return client_.call({.url = options_.url,
-                       .headers = std::move(headers),
-                       .body = body,
-                       .timeout = options_.timeout},
-                      [&stop] { return !stop.stop_requested(); });
-}
-
-template <class Items, class Compose>
-Delivery Webhook::post(const Items& items, const std::stop_token& stop, const Compose& compose) {
-  Delivery delivery;
-  const auto until = std::chrono::steady_clock::now() + kLongestStretch;
-  for (const auto& item : items) {
-    const Posted posted = compose(item);
-    const HttpAnswer answer = send(posted.id, posted.body, stop);
-    ++attempts_;
-    if (answer.status < 200 || answer.status > 299) {
-      const bool is_given_up = is_of_the_event(answer.status) && attempts_ >= kMostAttempts;
-      if (!is_given_up) {
-        delivery.failure = reason_of(answer);
-        delivery.wait = answer.retry_after;
-        delivery.wants_no_more = answer.status == 410;
-        return delivery;
-      }
-      delivery.refused.push_back(
-          {.measurement = posted.id, .reason = reason_of(answer), .at = plant_.clock.now()});
-    }
-    attempts_ = 0;
-    ++delivery.dealt_with;
-    delivery.bytes += posted.body.size();
-    if (std::chrono::steady_clock::now() > until) break;
-  }
-  return delivery;
-}
-
-Delivery Webhook::deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) {
-  return post(measurements, stop, [](const Outgoing& outgoing) {
-    const app::Measurement& measurement = **outgoing;
-    Posted posted{.id = app::measurement_id_text(measurement.id, measurement.origin),
-                  .body = begun_event("measurement.recorded", measurement.received_at)};
-    app::append_record(posted.body, measurement);
-    posted.body += '}';
-    return posted;
-  });
-}
-
-Delivery Webhook::deliver_events(std::span<const OutgoingEvent> events,
-                                 const std::stop_token& stop) {
-  return post(events, stop, [](const OutgoingEvent& event) {
-    return Posted{.id = event_text(event),
-                  .body = begun_event(event.type, event.at) + event.payload + '}'};
-  });
-}
 
 /// Posts each measurement as an event `measurement.recorded` whose webhook-id is the measurement's,
 /// and the other requested events. 2xx is success. 410 ends the connection. 400, 413, 415 and 422,

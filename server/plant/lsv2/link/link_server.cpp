@@ -21,36 +21,6 @@ struct Ending {
   std::string_view why{};
 };
 
-/// One client of a LinkServer: its socket, which never blocks, and its conversation. One answer at
-/// a time: the next telegram is looked at when the last answer has left.
-class Connection {
- public:
-  using Time = std::chrono::steady_clock::time_point;
-
-  Connection(Descriptor socket, std::string peer, std::unique_ptr<Conversation> conversation,
-             Time now);
-
-  const std::string& peer() const { return peer_; }
-  /// The awaited event.
-  pollfd interest() const;
-  /// Returns the time at which it ends unless something happens, and the reason.
-  std::pair<Time, std::string_view> deadline(const LinkServerOptions& options) const;
-
-  std::optional<Ending> read(Time now);
-  std::optional<Ending> write(Time now);
-
- private:
-  std::optional<Ending> answer(Time now);
-  std::optional<Ending> send_some();
-
-  Descriptor socket_;
-  std::string peer_;
-  std::unique_ptr<Conversation> conversation_;
-  TelegramReader reader_;
-  std::string out_;
-  Time since_;  ///< of its current step: reading a telegram, writing a response, or silence
-};
-
 namespace {
 
 /// After a failed call: continue later, or the client is gone.
@@ -59,7 +29,7 @@ std::optional<Ending> later_or_left() {
   return Ending{};
 }
 
-using Time = Connection::Time;
+using Time = std::chrono::steady_clock::time_point;
 
 /// Out of descriptors, for example: clients wait in the kernel's queue for this time.
 constexpr auto kAcceptPause = std::chrono::milliseconds(100);
@@ -80,64 +50,80 @@ std::string address_of(const sockaddr_storage& peer, socklen_t length) {
 
 }  // namespace
 
-Connection::Connection(Descriptor socket, std::string peer,
-                       std::unique_ptr<Conversation> conversation, Time now)
-    : socket_(std::move(socket)),
-      peer_(std::move(peer)),
-      conversation_(std::move(conversation)),
-      since_(now) {}
+/// One client of a LinkServer: its socket, which never blocks, and its conversation. One answer at
+/// a time: the next telegram is looked at when the last answer has left.
+class Connection {
+ public:
+  Connection(Descriptor socket, std::string peer, std::unique_ptr<Conversation> conversation,
+             Time now)
+      : socket_(std::move(socket)),
+        peer_(std::move(peer)),
+        conversation_(std::move(conversation)),
+        since_(now) {}
 
-pollfd Connection::interest() const {
-  return {.fd = socket_.get(),
-          .events = static_cast<short>(out_.empty() ? POLLIN : POLLOUT),
-          .revents = 0};
-}
-
-std::pair<Connection::Time, std::string_view> Connection::deadline(
-    const LinkServerOptions& options) const {
-  if (!out_.empty()) return {since_ + options.write_timeout, "the client does not read its answer"};
-  if (reader_.is_inside()) return {since_ + options.telegram_timeout, "its telegram stays short"};
-  return {since_ + options.idle_timeout, "the client was silent for too long"};
-}
-
-std::optional<Ending> Connection::read(Time now) {
-  std::array<char, kLargestBuffer> bytes;
-  const ssize_t count = recv(socket_.get(), bytes.data(), bytes.size(), 0);
-  if (count == 0) return Ending{};
-  if (count < 0) return later_or_left();
-  // The time of a telegram begins with its first byte; later bytes do not extend it.
-  if (!reader_.is_inside()) since_ = now;
-  reader_.feed({bytes.data(), static_cast<std::size_t>(count)});
-  return answer(now);
-}
-
-std::optional<Ending> Connection::write(Time now) {
-  if (auto ending = send_some()) return ending;
-  since_ = now;
-  return answer(now);  // to the telegrams after it
-}
-
-std::optional<Ending> Connection::answer(Time now) {
-  while (out_.empty()) {
-    reader_.set_buffer(conversation_->buffer());
-    const auto telegram = reader_.next();
-    if (!telegram) return Ending{"the client does not send telegrams"};
-    if (!*telegram) return std::nullopt;
-    since_ = now;
-    const auto reply = conversation_->answer(**telegram);
-    if (!reply) continue;
-    out_ = framed(*reply);
-    if (auto ending = send_some()) return ending;
+  const std::string& peer() const { return peer_; }
+  /// The awaited event.
+  pollfd interest() const {
+    return {.fd = socket_.get(),
+            .events = static_cast<short>(out_.empty() ? POLLIN : POLLOUT),
+            .revents = 0};
   }
-  return std::nullopt;
-}
 
-std::optional<Ending> Connection::send_some() {
-  const ssize_t count = send(socket_.get(), out_.data(), out_.size(), MSG_NOSIGNAL);
-  if (count < 0) return later_or_left();
-  out_.erase(0, static_cast<std::size_t>(count));
-  return std::nullopt;
-}
+  /// Returns the time at which it ends unless something happens, and the reason.
+  std::pair<Time, std::string_view> deadline(const LinkServerOptions& options) const {
+    if (!out_.empty())
+      return {since_ + options.write_timeout, "the client does not read its answer"};
+    if (reader_.is_inside()) return {since_ + options.telegram_timeout, "its telegram stays short"};
+    return {since_ + options.idle_timeout, "the client was silent for too long"};
+  }
+
+  std::optional<Ending> read(Time now) {
+    std::array<char, kLargestBuffer> bytes;
+    const ssize_t count = recv(socket_.get(), bytes.data(), bytes.size(), 0);
+    if (count == 0) return Ending{};
+    if (count < 0) return later_or_left();
+    // The time of a telegram begins with its first byte; later bytes do not extend it.
+    if (!reader_.is_inside()) since_ = now;
+    reader_.feed({bytes.data(), static_cast<std::size_t>(count)});
+    return answer(now);
+  }
+
+  std::optional<Ending> write(Time now) {
+    if (auto ending = send_some()) return ending;
+    since_ = now;
+    return answer(now);  // to the telegrams after it
+  }
+
+ private:
+  std::optional<Ending> answer(Time now) {
+    while (out_.empty()) {
+      reader_.set_buffer(conversation_->buffer());
+      const auto telegram = reader_.next();
+      if (!telegram) return Ending{"the client does not send telegrams"};
+      if (!*telegram) return std::nullopt;
+      since_ = now;
+      const auto reply = conversation_->answer(**telegram);
+      if (!reply) continue;
+      out_ = framed(*reply);
+      if (auto ending = send_some()) return ending;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Ending> send_some() {
+    const ssize_t count = send(socket_.get(), out_.data(), out_.size(), MSG_NOSIGNAL);
+    if (count < 0) return later_or_left();
+    out_.erase(0, static_cast<std::size_t>(count));
+    return std::nullopt;
+  }
+
+  Descriptor socket_;
+  std::string peer_;
+  std::unique_ptr<Conversation> conversation_;
+  TelegramReader reader_;
+  std::string out_;
+  Time since_;  ///< of its current step: reading a telegram, writing a response, or silence
+};
 
 class LinkServer::Loop {
  public:

@@ -8,13 +8,10 @@ namespace fitgauge::control_link {
 /// One client's talk with a control. Lives on the server's thread.
 class Conversation {
  public:
-  Conversation() = default;
-  Conversation(const Conversation&) = delete;
-  Conversation& operator=(const Conversation&) = delete;
+  Conversation& operator=(Conversation&&) = delete;  // neither copied nor moved
   virtual ~Conversation() = default;
 
-  /// The response to a telegram; absent if the protocol has none. May wait for the disk: the other
-  /// clients wait too, as at a control.
+  /// The response, if the protocol has one. May wait for the disk, and so do other clients.
   virtual std::optional<Telegram> answer(const Telegram& telegram) = 0;
   /// The agreed size; telegrams of both sides are shorter.
   virtual std::size_t buffer() const = 0;
@@ -44,8 +41,7 @@ class LinkServer {
                                                    LinkServerHooks hooks);
   /// Closes every connection and ends the thread.
   ~LinkServer();
-  LinkServer(const LinkServer&) = delete;
-  LinkServer& operator=(const LinkServer&) = delete;
+  LinkServer& operator=(LinkServer&&) = delete;  // neither copied nor moved
 
   /// The actual port if 0 was requested.
   std::uint16_t port() const;

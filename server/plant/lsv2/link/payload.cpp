@@ -1,5 +1,7 @@
 #include "plant/lsv2/link/payload.hpp"
 
+#include "formats/sheet/text_encoding.hpp"
+
 namespace fitgauge::control_link {
 namespace {
 
@@ -20,23 +22,12 @@ char latin1_character(std::string_view& text) {
 
 std::string utf8_from_latin1(std::string_view bytes) {
   std::string text;
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80) {
-      text += c;
-    } else {
-      text += static_cast<char>(0xC0U | byte >> 6U);
-      text += static_cast<char>(0x80U | (byte & 0x3FU));
-    }
-  }
+  for (const char byte : bytes) sheet::append_utf8(text, static_cast<unsigned char>(byte));
   return text;
 }
 
 bool is_name(std::string_view letters) {
-  for (const char c : letters) {
-    if ((c < 'A' || c > 'Z') && c != '_') return false;
-  }
-  return true;
+  return std::ranges::all_of(letters, [](char c) { return (c >= 'A' && c <= 'Z') || c == '_'; });
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <sys/socket.h>
 
 #include "base/folder.hpp"
-#include "plant/lsv2/link/answers.hpp"
 #include "plant/lsv2/link/link_server.hpp"
+#include "plant/lsv2/link/messages.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::control_link;

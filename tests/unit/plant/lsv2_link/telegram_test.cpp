@@ -1,8 +1,7 @@
 #include <doctest/doctest.h>
 
-#include "plant/lsv2/link/answers.hpp"
+#include "plant/lsv2/link/messages.hpp"
 #include "plant/lsv2/link/payload.hpp"
-#include "plant/lsv2/link/requests.hpp"
 
 using namespace fitgauge::control_link;
 using namespace std::string_literals;
