@@ -6,10 +6,6 @@
 #include <csignal>
 #include <iostream>
 
-#include "api/services.hpp"
-#include "base/result.hpp"
-#include "base/text.hpp"
-#include "daemon/config.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/log.hpp"
 #include "daemon/preflight.hpp"
@@ -35,7 +31,7 @@ void print(std::string_view event, const std::string& detail) {
 /// centre refuses it, or cannot be reached for a minute. A repeat continues at the end.
 Result<int> run_forward_all(const Config& config) {
   if (config.forward_to.empty()) {
-    return Error{ErrorCode::ConfigInvalid, "forward --all needs forward-to, the centre's address"};
+    return config_error("forward --all needs forward-to, the centre's address");
   }
   const SystemClock clock;
   app::ApplicationOptions options = application_options(config);
@@ -99,12 +95,11 @@ std::vector<std::string> environment() {
   return variables;
 }
 
-/// Names the first word that is no option or command, and the nearest known one; `fallback` if
-/// another error applies.
+/// Names the first unknown option or command and the nearest known one; else returns `fallback`.
 std::string usage_text(const CLI::App& app, std::string fallback) {
   const std::vector<std::string> words = app.remaining(true);
-  const auto option = std::find_if(words.begin(), words.end(),
-                                   [](const auto& word) { return word.starts_with('-'); });
+  const auto option =
+      std::ranges::find_if(words, [](const auto& word) { return word.starts_with('-'); });
   if (words.empty()) return fallback + ';';
   const bool is_option = option != words.end();
   const std::string word = is_option ? option->substr(0, option->find('=')) : words.front();

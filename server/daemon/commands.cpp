@@ -1,15 +1,11 @@
 #include "daemon/commands.hpp"
 
-#include <openssl/bio.h>
-#include <openssl/ssl.h>
-#include <sys/socket.h>
-#include <sys/time.h>
-
 #include <iostream>
 
 #include "api/services.hpp"
 #include "base/folder.hpp"
 #include "base/regular_file.hpp"
+#include "http/client/http_client.hpp"
 #include "http/server.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/qualification/qualification.hpp"
@@ -18,6 +14,7 @@ namespace fitgauge::daemon {
 namespace {
 
 const SystemClock kClock;
+constexpr long kHealthSeconds = 3;
 
 Result<std::unique_ptr<app::Application>> open_application(const Config& config, bool attach) {
   app::ApplicationOptions options = application_options(config);
@@ -35,16 +32,7 @@ bool is_new(const std::filesystem::path& folder) {
   return !std::filesystem::exists(folder, failure) || std::filesystem::is_empty(folder, failure);
 }
 
-constexpr std::string_view kRequest =
-    "GET /readyz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
-
-constexpr std::chrono::seconds kHealthPatience{3};
-
-using Bio = std::unique_ptr<BIO, decltype(&BIO_free_all)>;
-using SslContext = std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)>;
-
-/// Address of the check: if the listener requires client certificates, the plain one for health
-/// checks.
+/// Address of the check: the plain one if the listener requires client certificates.
 Result<std::string> address_of(const Config& config) {
   if (config.tls_client_ca.empty()) {
     const auto listen = TRY(http::parse_listen_address(config.listen.front()));
@@ -56,23 +44,15 @@ Result<std::string> address_of(const Config& config) {
                                         health_port_file(config).filename().string()};
 }
 
-void limit_waiting(BIO* connection) {
-  const int socket = static_cast<int>(BIO_get_fd(connection, nullptr));
-  const timeval limit{.tv_sec = kHealthPatience.count(), .tv_usec = 0};
-  setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
-  setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
+/// Keeps the first line of a head.
+std::size_t take_status_line(char* data, std::size_t, std::size_t size, void* line) {
+  auto& kept = *static_cast<std::string*>(line);
+  const std::string_view text(data, size);
+  if (kept.empty()) kept = text.substr(0, text.find('\r'));
+  return size;
 }
 
-/// Repeats a call that a stop of this process has interrupted, within its time limit.
-template <class Call>
-int uninterrupted(BIO* connection, const Call& call) {
-  const auto end = std::chrono::steady_clock::now() + kHealthPatience;
-  int result = call();
-  while (result <= 0 && BIO_should_retry(connection) && std::chrono::steady_clock::now() < end) {
-    result = call();
-  }
-  return result;
-}
+std::size_t drop_body(char*, std::size_t, std::size_t size, void*) { return size; }
 
 }  // namespace
 
@@ -88,8 +68,8 @@ Result<int> run_verify(const Config& config, const std::vector<std::string>& che
   for (const std::string& file : checkpoints) {
     auto note = read_regular(file);
     if (!note) {
-      return Error{ErrorCode::ConfigInvalid,
-                   fmt::format("cannot read the checkpoint {}: {}", file, note.error().message)};
+      return config_error(
+          fmt::format("cannot read the checkpoint {}: {}", file, note.error().message));
     }
     notes[file] = *std::move(note);
   }
@@ -111,10 +91,9 @@ Result<int> run_qualify(const Config& config, const std::string& folder, bool si
   if (signs) {
     auto read = TRY(app::read_log_keys(config.data));
     if (read.empty()) {
-      return Error{
-          ErrorCode::ConfigInvalid,
+      return config_error(
           config.data +
-              " has no log key: start the service with this folder once, or remove --data"};
+          " has no log key: start the service with this folder once, or remove --data");
     }
     keys = std::move(read);
   }
@@ -147,17 +126,15 @@ Result<int> run_key_create(const Config& config, const std::string& name, const 
                            const std::optional<std::string>& expires) {
   const auto known = app::role_from_word(role);
   if (!known) {
-    return Error{
-        ErrorCode::ConfigInvalid,
-        fmt::format("role must be one of: viewer, operator, admin, station; got '{}'", role)};
+    return config_error(
+        fmt::format("role must be one of: viewer, operator, admin, station; got '{}'", role));
   }
   std::optional<Timestamp> end;
   if (expires) {
     const auto time = parse_rfc3339(*expires);
     if (!time) {
-      return Error{
-          ErrorCode::ConfigInvalid,
-          fmt::format("expires must be a time such as 2027-01-01T00:00:00Z; got '{}'", *expires)};
+      return config_error(
+          fmt::format("expires must be a time such as 2027-01-01T00:00:00Z; got '{}'", *expires));
     }
     end = *time;
   }
@@ -175,9 +152,8 @@ Result<int> run_key_revoke(const Config& config, const std::string& name) {
 }
 
 Result<int> run_key_list(const Config& config) {
-  const auto app = attach(config);
-  if (!app) return app.error();
-  const auto entries = TRY((*app)->keys().list());
+  const auto app = TRY(attach(config));
+  const auto entries = TRY(app->keys().list());
   for (const app::KeyEntry& entry : entries) {
     std::cout << fmt::format(
         "{}\t{}\tcreated {}{}{}\n", entry.name, app::word(entry.role),
@@ -194,34 +170,26 @@ std::filesystem::path health_port_file(const Config& config) {
 
 Result<void> healthcheck(const Config& config) {
   const auto failed = [](std::string what) { return Error{ErrorCode::NotReady, std::move(what)}; };
-  const auto asked = TRY(address_of(config));
-  const std::string& address = asked;
-
-  const SslContext context(SSL_CTX_new(TLS_client_method()), &SSL_CTX_free);
+  const auto address = TRY(address_of(config));
   const bool tls = !config.tls_cert.empty() && config.tls_client_ca.empty();
+  std::string line;
+  http_client::CurlHandle call;
+  call.begin(fmt::format("{}://{}/readyz", tls ? "https" : "http", address), "GET", {}, {});
+  call.set(CURLOPT_PROXY, "");
+  call.set(CURLOPT_TIMEOUT, kHealthSeconds);
   // The service's certificate names its outer address: it is not verified here.
-  const Bio connection(tls ? BIO_new_ssl_connect(context.get()) : BIO_new(BIO_s_connect()),
-                       &BIO_free_all);
-  if (!connection || BIO_set_conn_hostname(connection.get(), address.c_str()) <= 0 ||
-      BIO_do_connect(connection.get()) <= 0) {
+  call.set(CURLOPT_SSL_VERIFYPEER, 0L);
+  call.set(CURLOPT_SSL_VERIFYHOST, 0L);
+  call.set(CURLOPT_HEADERFUNCTION, &take_status_line);
+  call.set(CURLOPT_HEADERDATA, &line);
+  call.set(CURLOPT_WRITEFUNCTION, &drop_body);
+  const CURLcode code = call.perform();
+  if (line.starts_with("HTTP/1.1 200")) return {};
+  if (code == CURLE_COULDNT_CONNECT || code == CURLE_SSL_CONNECT_ERROR) {
     return failed("nothing listens on " + address);
   }
-  limit_waiting(connection.get());
-  BIO* const io = connection.get();
-  if (uninterrupted(io, [io] {
-        return BIO_write(io, kRequest.data(), static_cast<int>(kRequest.size()));
-      }) <= 0) {
-    return failed("cannot write to " + address);
-  }
-  char answer[64] = {};
-  const int length = uninterrupted(io, [&] { return BIO_read(io, answer, sizeof answer); });
-  const std::string_view text(answer, length > 0 ? static_cast<std::size_t>(length) : 0);
-  const std::string_view line = text.substr(0, text.find('\r'));
-  if (!line.starts_with("HTTP/1.1 200")) {
-    return failed(line.empty() ? "no answer from " + address
-                               : fmt::format("{} answered '{}'", address, line));
-  }
-  return {};
+  return failed(line.empty() ? "no answer from " + address
+                             : fmt::format("{} answered '{}'", address, line));
 }
 
 }  // namespace fitgauge::daemon

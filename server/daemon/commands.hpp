@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "base/result.hpp"
 #include "daemon/config.hpp"
 #include "service/application.hpp"
 
@@ -27,8 +26,7 @@ Result<int> run_key_create(const Config& config, const std::string& name, const 
 Result<int> run_key_revoke(const Config& config, const std::string& name);
 Result<int> run_key_list(const Config& config);
 
-/// File with the port on 127.0.0.1 that answers only health checks without TLS, if the service
-/// requires client certificates.
+/// File with the port on 127.0.0.1 for health checks, if clients need certificates.
 std::filesystem::path health_port_file(const Config& config);
 
 /// Requests /readyz of the service with this configuration, as a health check of a container does

@@ -5,9 +5,7 @@
 
 #include "base/number.hpp"
 #include "base/regular_file.hpp"
-#include "base/text.hpp"
 #include "daemon/connections.hpp"
-#include "formats/certificate/certificate.hpp"
 #include "plant/virtual_control/virtual_control.hpp"
 #include "service/log/log_keys.hpp"
 
@@ -19,12 +17,10 @@ constexpr std::string_view kPrefix = "FITGAUGE_";
 constexpr std::string_view kOtherVariables[] = {"FITGAUGE_SERVER", "FITGAUGE_KEY",
                                                 "FITGAUGE_CONFIG"};
 
-Error invalid(std::string message) { return {ErrorCode::ConfigInvalid, std::move(message)}; }
-
 const Setting* find(std::string_view name, std::string (*spelling)(const Setting&)) {
   const auto& all = settings();
-  const auto found = std::find_if(
-      all.begin(), all.end(), [&](const Setting& setting) { return spelling(setting) == name; });
+  const auto found =
+      std::ranges::find_if(all, [&](const Setting& setting) { return spelling(setting) == name; });
   return found == all.end() ? nullptr : &*found;
 }
 
@@ -46,24 +42,6 @@ std::vector<std::string> split_list(std::string_view text) {
   return items;
 }
 
-Result<void> assign_integer(const Setting& setting, std::string_view text, Config& config) {
-  const auto value = read_number<std::int64_t>(text);
-  if (!value || *value < setting.least || *value > setting.most) {
-    return invalid(fmt::format("{} must be a whole number from {} to {}; got '{}'", setting.name,
-                               setting.least, setting.most, text));
-  }
-  config.*setting.integer = *value;
-  return {};
-}
-
-Result<void> assign_flag(const Setting& setting, std::string_view text, Config& config) {
-  if (text != "true" && text != "false") {
-    return invalid(fmt::format("{} must be true or false; got '{}'", setting.name, text));
-  }
-  config.*setting.flag = text == "true";
-  return {};
-}
-
 std::vector<std::string_view> model_names() {
   std::vector<std::string_view> names;
   for (const auto& model : virtual_control::control_models()) names.push_back(model.name);
@@ -74,21 +52,21 @@ std::vector<std::string_view> model_names() {
 Result<std::string> text_of(const Setting& setting, const toml::node& node) {
   if (setting.integer != nullptr) {
     if (const auto value = node.value_exact<std::int64_t>()) return std::to_string(*value);
-    return invalid(fmt::format("{} must be a whole number", toml_key(setting)));
+    return config_error(fmt::format("{} must be a whole number", toml_key(setting)));
   }
   if (setting.flag != nullptr) {
     if (const auto value = node.value_exact<bool>()) return *value ? "true" : "false";
-    return invalid(fmt::format("{} must be true or false", toml_key(setting)));
+    return config_error(fmt::format("{} must be true or false", toml_key(setting)));
   }
   if (const auto value = node.value_exact<std::string>()) return *value;
   const toml::array* items = node.as_array();
   if (setting.texts == nullptr || items == nullptr) {
-    return invalid(fmt::format("{} must be a string", toml_key(setting)));
+    return config_error(fmt::format("{} must be a string", toml_key(setting)));
   }
   std::vector<std::string> texts;
   for (const toml::node& item : *items) {
     const auto text = item.value_exact<std::string>();
-    if (!text) return invalid(fmt::format("{} must be a list of strings", toml_key(setting)));
+    if (!text) return config_error(fmt::format("{} must be a list of strings", toml_key(setting)));
     texts.push_back(*text);
   }
   return fmt::format("{}", fmt::join(texts, ","));
@@ -213,7 +191,7 @@ std::string help_text(const Setting& setting) {
 
 std::string toml_key(const Setting& setting) {
   std::string key(setting.name);
-  std::replace(key.begin(), key.end(), '-', '_');
+  std::ranges::replace(key, '-', '_');
   return key;
 }
 
@@ -222,33 +200,44 @@ std::string environment_name(const Setting& setting) {
 }
 
 Result<void> assign(const Setting& setting, std::string_view text, Config& config) {
-  if (setting.integer != nullptr) return assign_integer(setting, text, config);
-  if (setting.flag != nullptr) return assign_flag(setting, text, config);
-  if (setting.texts != nullptr) {
-    config.*setting.texts = split_list(text);
-    return {};
-  }
   const auto& words = setting.words;
-  if (!words.empty() && std::find(words.begin(), words.end(), text) == words.end()) {
-    return invalid(
+  if (setting.integer != nullptr) {
+    const auto value = read_number<std::int64_t>(text);
+    if (!value || *value < setting.least || *value > setting.most) {
+      return config_error(fmt::format("{} must be a whole number from {} to {}; got '{}'",
+                                      setting.name, setting.least, setting.most, text));
+    }
+    config.*setting.integer = *value;
+  } else if (setting.flag != nullptr) {
+    if (text != "true" && text != "false") {
+      return config_error(fmt::format("{} must be true or false; got '{}'", setting.name, text));
+    }
+    config.*setting.flag = text == "true";
+  } else if (setting.texts != nullptr) {
+    config.*setting.texts = split_list(text);
+  } else if (!words.empty() && std::ranges::find(words, text) == words.end()) {
+    return config_error(
         fmt::format("{} must be one of: {}; got '{}'", setting.name, fmt::join(words, ", "), text));
+  } else {
+    config.*setting.text = text;
   }
-  config.*setting.text = text;
   return {};
 }
 
 Result<void> read_toml(const std::string& path, Config& config) {
   const auto content = read_regular(path);
-  if (!content) return invalid(fmt::format("cannot read {}: {}", path, content.error().message));
+  if (!content)
+    return config_error(fmt::format("cannot read {}: {}", path, content.error().message));
   toml::table file;
   try {
     file = toml::parse(*content, path);
   } catch (const toml::parse_error& error) {
-    return invalid(fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
+    return config_error(
+        fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
   }
   for (const auto& [key, node] : file) {
     const auto place = [&, &key = key](const std::string& message) {
-      return invalid(fmt::format("{}:{}: {}", path, key.source().begin.line, message));
+      return config_error(fmt::format("{}:{}: {}", path, key.source().begin.line, message));
     };
     const Setting* setting = find(key.str(), toml_key);
     if (setting == nullptr) {
@@ -268,17 +257,14 @@ Result<void> read_environment(const std::vector<std::string>& environment, Confi
     const std::size_t equals = variable.find('=');
     const std::string_view name = std::string_view(variable).substr(0, equals);
     if (equals == std::string::npos || !name.starts_with(kPrefix)) continue;
-    if (std::find(std::begin(kOtherVariables), std::end(kOtherVariables), name) !=
-        std::end(kOtherVariables)) {
-      continue;
-    }
+    if (std::ranges::find(kOtherVariables, name) != std::end(kOtherVariables)) continue;
     const Setting* setting = find(name, environment_name);
     if (setting == nullptr) {
-      return invalid(fmt::format("unknown environment variable {}; known variables: {}", name,
-                                 known(environment_name)));
+      return config_error(fmt::format("unknown environment variable {}; known variables: {}", name,
+                                      known(environment_name)));
     }
     const auto assigned = assign(*setting, std::string_view(variable).substr(equals + 1), config);
-    if (!assigned) return invalid(fmt::format("{}: {}", name, assigned.error().message));
+    if (!assigned) return config_error(fmt::format("{}: {}", name, assigned.error().message));
   }
   return {};
 }
@@ -290,7 +276,7 @@ bool is_origin(std::string_view text) {
   const std::size_t end = text.find("://");
   if (end == 0 || end == std::string_view::npos || text.size() == end + 3) return false;
   const auto is_part = [](std::string_view part, std::string_view others) {
-    return std::all_of(part.begin(), part.end(), [&](char c) {
+    return std::ranges::all_of(part, [&](char c) {
       return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || others.find(c) != others.npos;
     });
   };
@@ -302,15 +288,15 @@ Result<void> check_database(const Config& config) {
   if (config.database.empty()) return {};
   if (!config.database.starts_with("postgresql://") &&
       !config.database.starts_with("postgres://")) {
-    return invalid("database must be an address such as postgresql://user@host:5432/name");
+    return config_error("database must be an address such as postgresql://user@host:5432/name");
   }
   if (!config.forward_to.empty()) {
-    return invalid(
+    return config_error(
         "forward-to needs a data folder: with PostgreSQL (database) the service is a centre; use a "
         "standby of PostgreSQL for a copy");
   }
   if (!config.connections.empty()) {
-    return invalid(
+    return config_error(
         "connections need a data folder: with a shared database each service would repeat the "
         "work");
   }
@@ -321,27 +307,27 @@ Result<void> check_database(const Config& config) {
 
 Result<void> check(const Config& config) {
   if (config.listen.empty())
-    return invalid("listen needs at least one address such as 127.0.0.1:8286");
-  if (config.data.empty()) return invalid("data must be the folder of the database");
+    return config_error("listen needs at least one address such as 127.0.0.1:8286");
+  if (config.data.empty()) return config_error("data must be the folder of the database");
   if (!app::is_origin_name(config.origin_name)) {
-    return invalid(
+    return config_error(
         fmt::format("origin-name must have 1 to 64 lower-case letters, digits, '.', '/' and '-', "
                     "and begin with a letter or digit; got '{}'",
                     config.origin_name));
   }
   for (const std::string& origin : config.allow_origin) {
     if (!is_origin(origin)) {
-      return invalid(
+      return config_error(
           fmt::format("allow-origin must be an origin as https://mes.example:8443, in "
                       "lower case and without a path; got '{}'",
                       origin));
     }
   }
   if (config.tls_cert.empty() != config.tls_key.empty()) {
-    return invalid("tls-cert and tls-key belong together: give both or neither");
+    return config_error("tls-cert and tls-key belong together: give both or neither");
   }
   if (!config.tls_client_ca.empty() && config.tls_cert.empty()) {
-    return invalid("tls-client-ca needs tls-cert and tls-key");
+    return config_error("tls-client-ca needs tls-cert and tls-key");
   }
   TRY(check_database(config));
   TRY(certificate::read_letterhead(config.certificate_address, config.certificate_logo));

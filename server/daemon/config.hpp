@@ -44,6 +44,11 @@ struct Config {
   bool forward_insecure = false;
 };
 
+/// An error of the configuration.
+inline Error config_error(std::string message) {
+  return {ErrorCode::ConfigInvalid, std::move(message)};
+}
+
 /// One setting: its place in Config, its names and its documentation.
 struct Setting {
   Setting(std::string_view called, std::string_view kind_, std::string_view meaning,
@@ -84,8 +89,7 @@ std::string toml_key(const Setting& setting);
 std::string environment_name(const Setting& setting);
 
 /// Reads a TOML file into `config`.
-/// @errors ConfigInvalid naming the file, the line and the key: unreadable, unknown, wrong type or
-/// range.
+/// @errors ConfigInvalid with file, line and key: unreadable, unknown, wrong type or range.
 Result<void> read_toml(const std::string& path, Config& config);
 
 /// Reads the variables of `environment` ("NAME=value") that begin with FITGAUGE_.

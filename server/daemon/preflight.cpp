@@ -4,17 +4,19 @@
 #include <malloc.h>
 #include <openssl/crypto.h>
 #include <sys/resource.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
-#include <filesystem>
+#include <fstream>
 
+#include "api/runs/run_posting.hpp"
+#include "api/wire/problem.hpp"
 #include "base/regular_file.hpp"
-#include "base/text.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/log.hpp"
-#include "service/state/readiness.hpp"
 
 namespace fitgauge::daemon {
 namespace {
@@ -44,12 +46,11 @@ fs::path nearest_existing(fs::path folder) {
 Result<void> check_folder(const std::string& what, const fs::path& folder) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) {
-    return Error{ErrorCode::ConfigInvalid,
-                 fmt::format("{}: {} is not a folder", what, folder.string())};
+    return config_error(fmt::format("{}: {} is not a folder", what, folder.string()));
   }
   if (access(folder.c_str(), W_OK | X_OK) != 0) {
-    return Error{ErrorCode::ConfigInvalid, fmt::format("{}: cannot write to {}: {}", what,
-                                                       folder.string(), std::strerror(errno))};
+    return config_error(
+        fmt::format("{}: cannot write to {}: {}", what, folder.string(), std::strerror(errno)));
   }
   return {};
 }
@@ -59,7 +60,7 @@ Result<void> check_file(const std::string& what, const fs::path& file) {
   std::error_code ignored;
   if (file.empty()) return {};
   if (fs::is_directory(file, ignored)) {
-    return Error{ErrorCode::ConfigInvalid, fmt::format("{}: {} is a folder", what, file.string())};
+    return config_error(fmt::format("{}: {} is a folder", what, file.string()));
   }
   return check_folder(what, file.has_parent_path() ? file.parent_path() : fs::path("."));
 }
@@ -73,9 +74,8 @@ Result<void> take_key_of_file(const std::string& file, const std::vector<app::Ke
                               app::KeyService& keys) {
   const auto token = TRY(read_admin_key(file));
   if (keys.find(token)) return {};
-  const bool replaces = std::any_of(known.begin(), known.end(), [](const app::KeyEntry& key) {
-    return is_valid(key) && key.name == kName;
-  });
+  const bool replaces = std::ranges::any_of(
+      known, [](const app::KeyEntry& key) { return is_valid(key) && key.name == kName; });
   const auto taken =
       replaces ? keys.replace(kName, token) : keys.create(kName, app::Role::Admin, token);
   if (!taken && taken.error().where == "token") {
@@ -84,8 +84,7 @@ Result<void> take_key_of_file(const std::string& file, const std::vector<app::Ke
     return {};
   }
   if (!taken) {
-    return Error{ErrorCode::ConfigInvalid,
-                 fmt::format("admin-key-file {}: {}", file, taken.error().message)};
+    return config_error(fmt::format("admin-key-file {}: {}", file, taken.error().message));
   }
   if (replaces) {
     log_warning("admin_key_replaced",
@@ -109,14 +108,42 @@ Result<void> write_key(const std::string& file, std::string_view token) {
   if (out >= 0) ::close(out);
   if (written) return {};
   ::unlink(aside.c_str());
-  return Error{ErrorCode::ConfigInvalid,
-               fmt::format("admin-key-out: cannot write {}: {}", file, std::strerror(cause))};
+  return config_error(
+      fmt::format("admin-key-out: cannot write {}: {}", file, std::strerror(cause)));
 }
 
 /// For OpenSSL: its buffers begin at a page.
 void* allocate(std::size_t size) {
   const bool is_buffer = size == kPage || (size > kTlsRecord && size < 2 * kTlsRecord);
   return is_buffer ? memalign(kPage, size) : std::malloc(size);
+}
+
+using Opened = Result<std::unique_ptr<app::Application>>;
+
+Result<std::unique_ptr<http::Server>> start_waiting_server(const http::ServerOptions& options,
+                                                           const std::string& why) {
+  std::vector<http::Route> routes;
+  const auto live = [](const http::Request&) -> Result<http::Response> {
+    return http::Response(200, "application/json", std::string(R"({"status":"live"})"));
+  };
+  routes.push_back({.pattern = "/livez", .handler = live});
+  http::ServerHooks hooks;
+  hooks.format_error = [why](const Error&, std::optional<int>, const http::Request& request) {
+    return api::problem(
+        {ErrorCode::StorageUnavailable, "the service waits for its database: " + why}, std::nullopt,
+        request);
+  };
+  return http::Server::start(options, http::RouteTable(std::move(routes)), std::move(hooks));
+}
+
+/// A setup that is not there yet, or no more, is no reason not to start.
+machine::Setup machine_of(const Config& config, const api::Services& services) {
+  auto setup = api::machine_of_setup(services, config.control_setup);
+  if (setup) return *std::move(setup);
+  log_warning("control_setup_unusable",
+              fmt::format("setup '{}': {}; the control shows the default machine until a restart",
+                          config.control_setup, setup.error().message));
+  return {};
 }
 
 }  // namespace
@@ -190,7 +217,7 @@ Result<std::string> read_admin_key(const std::string& file) {
   std::string token(text ? trim(text->substr(0, text->find('\n'))) : "");
   if (token.size() >= app::kShortestToken) return token;
   const auto invalid = [&](const std::string& what) {
-    return Error{ErrorCode::ConfigInvalid, fmt::format("admin-key-file {} {}", file, what)};
+    return config_error(fmt::format("admin-key-file {} {}", file, what));
   };
   if (!text) return invalid("cannot be read: " + text.error().message);
   if (token.empty()) return invalid("has no key in its first line");
@@ -201,7 +228,7 @@ Result<std::string> read_admin_key(const std::string& file) {
 Result<void> provide_admin_key(const Config& config, bool needs_one, app::KeyService& keys) {
   const auto known = TRY(keys.list());
   if (!config.admin_key_file.empty()) return take_key_of_file(config.admin_key_file, known, keys);
-  const bool has_one = std::any_of(known.begin(), known.end(), [](const app::KeyEntry& key) {
+  const bool has_one = std::ranges::any_of(known, [](const app::KeyEntry& key) {
     return is_valid(key) && (key.role == app::Role::Admin || key.name == kName);
   });
   if (has_one || !needs_one) return {};
@@ -214,6 +241,100 @@ Result<void> provide_admin_key(const Config& config, bool needs_one, app::KeySer
   }
   log_info("admin_key_written", fmt::format("the administrator's key is in {}", file));
   return {};
+}
+
+sigset_t waited_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&signals, signal);
+  return signals;
+}
+
+bool is_to_end_after_a_second() {
+  const sigset_t signals = waited_signals();
+  constexpr timespec kSecond{.tv_sec = 1, .tv_nsec = 0};
+  const int signal = sigtimedwait(&signals, nullptr, &kSecond);
+  return signal == SIGTERM || signal == SIGINT;
+}
+
+Result<void> write_port_file(const std::string& path, std::uint16_t port) {
+  const std::string aside = path + ".new";
+  {
+    std::remove(aside.c_str());  // a FIFO would wait for a reader
+    std::ofstream file(aside);
+    file << port << '\n';
+    if (!file.flush()) return config_error("cannot write the port file " + path);
+  }
+  if (std::rename(aside.c_str(), path.c_str()) != 0) {
+    return config_error("cannot write the port file " + path);
+  }
+  return {};
+}
+
+Result<std::unique_ptr<app::Application>> open_or_wait(const app::ApplicationOptions& options,
+                                                       const Clock& clock,
+                                                       http::ServerOptions& server,
+                                                       const std::string& port_file) {
+  const auto is_away = [&](const Opened& opened) {
+    return !opened && !options.address.empty() &&
+           opened.error().code == ErrorCode::StorageUnavailable;
+  };
+  Opened opened = app::Application::open(options, clock);
+  if (!is_away(opened)) return opened;
+  log_warning("database_awaited", opened.error().message);
+  const auto waiting = TRY(start_waiting_server(server, opened.error().message));
+  for (std::size_t i = 0; i < server.listen.size(); ++i) {
+    server.listen[i].port = waiting->ports().at(i);
+  }
+  if (!port_file.empty()) TRY(write_port_file(port_file, server.listen.front().port));
+  do {
+    if (is_to_end_after_a_second()) return std::unique_ptr<app::Application>();
+    opened = app::Application::open(options, clock);
+  } while (is_away(opened));
+  return opened;
+}
+
+Result<std::unique_ptr<virtual_control::VirtualControl>> start_control(
+    const Config& config, const api::Services& services) {
+  using Control = std::unique_ptr<virtual_control::VirtualControl>;
+  if (config.control_listen.empty()) return Control();
+  const auto address = TRY(http::parse_listen_address(config.control_listen));
+  virtual_control::VirtualControlOptions options;
+  options.link.host = address.host;
+  options.link.port = address.port;
+  options.model = config.control_model;
+  options.is_writable = config.control_write;
+  options.setup = machine_of(config, services);
+  options.start = [&services,
+                   setup = config.control_setup](const interpreter::ControlPath& program) {
+    return api::start_program(services, program, setup);
+  };
+  options.sent_away = [](std::string_view peer, std::string_view why) {
+    log_warning("control_client_sent_away", fmt::format("{}: {}", peer, why));
+  };
+  auto control = TRY(
+      virtual_control::VirtualControl::start(std::move(options), services.files, services.runs));
+  log_info("control_listening",
+           fmt::format("{} on port {}, {}", config.control_model, control->port(),
+                       config.control_write ? "writable" : "read-only"));
+  return control;
+}
+
+Result<std::unique_ptr<mtconnect::ShdrAdapter>> start_shdr(const Config& config,
+                                                           const api::Services& services) {
+  using Adapter = std::unique_ptr<mtconnect::ShdrAdapter>;
+  if (config.shdr_listen.empty()) return Adapter();
+  const auto address = TRY(http::parse_listen_address(config.shdr_listen));
+  auto adapter = mtconnect::ShdrAdapter::start(
+      {.listen = address,
+       .sent_away =
+           [](std::string_view peer, std::string_view why) {
+             log_warning("shdr_agent_sent_away", fmt::format("{}: {}", peer, why));
+           }},
+      services.measurements, services.events, services.clock);
+  if (!adapter) return adapter.error();
+  log_info("shdr_listening", fmt::format("port {}", (*adapter)->port()));
+  return *std::move(adapter);
 }
 
 }  // namespace fitgauge::daemon

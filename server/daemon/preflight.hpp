@@ -3,7 +3,6 @@
 #include <signal.h>
 
 #include "api/services.hpp"
-#include "base/result.hpp"
 #include "daemon/config.hpp"
 #include "http/server.hpp"
 #include "plant/mtconnect/shdr_adapter.hpp"
@@ -57,8 +56,7 @@ sigset_t waited_signals();
 /// Waits a second for SIGTERM or SIGINT. @returns whether the service is to end.
 bool is_to_end_after_a_second();
 
-/// Writes the port in decimal to a temporary file and renames it, so that others read a whole
-/// number.
+/// Writes the port in decimal to a temporary file and renames it: others read whole numbers.
 /// @errors ConfigInvalid
 Result<void> write_port_file(const std::string& path, std::uint16_t port);
 
