@@ -19,9 +19,15 @@ inline constexpr std::array kAllAxes{Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::B
 constexpr std::size_t index(Axis axis) { return static_cast<std::size_t>(axis); }
 constexpr bool is_rotary(Axis axis) { return index(axis) >= 3; }
 /// "X" to "C".
-std::string_view name(Axis axis);
+constexpr std::string_view name(Axis axis) {
+  return std::string_view("XYZABC").substr(index(axis), 1);
+}
 /// The unit vector of a linear axis, and for a rotary one the vector it turns around.
-Vec3 unit_vector(Axis axis);
+constexpr Vec3 unit_vector(Axis axis) {
+  Vec3 vector;
+  vector[index(axis) % 3] = 1;
+  return vector;
+}
 
 /// Position of the six axes: X, Y, Z in mm and A, B, C in degrees.
 struct Position {

@@ -26,12 +26,9 @@ Control::Control(const MachineSetup& setup, std::unique_ptr<Axes> axes, Allowanc
 
 MachineResult<void> Control::call_tool(const ToolCall& call) {
   if (!call.axis && !state_.tool.axis) return make_fault(FaultKind::ToolAxisMissing);
-  if (call.axis && is_rotary(*call.axis)) {
-    return make_fault(FaultKind::ValueInvalid, "the tool axis is X, Y or Z");
-  }
-  if (!is_finite({call.dl, call.dr, call.dr2}) || !(call.spindle_rpm.value_or(0) >= 0)) {
-    return make_fault(FaultKind::ValueInvalid, "S, DL, DR and DR2 of a tool call are numbers");
-  }
+  TRY(require(!call.axis || !is_rotary(*call.axis), "the tool axis is X, Y or Z"));
+  TRY(require(is_finite({call.dl, call.dr, call.dr2}) && call.spindle_rpm.value_or(0) >= 0,
+              "S, DL, DR and DR2 of a tool call are numbers"));
   if (call.number && *call.number != 0) {
     const Tool* tool = state_.tools.find(*call.number);
     if (tool == nullptr) {
@@ -82,9 +79,8 @@ MachineResult<void> Control::write_preset(const Preset& preset) {
 }
 
 MachineResult<void> Control::write_tool_touch_probe(const ToolTouchProbe& tt) {
-  if (!is_finite(tt.centre) || !std::isfinite(tt.radius) || tt.radius <= 0) {
-    return make_fault(FaultKind::ValueInvalid, "centre and radius of the tool touch probe");
-  }
+  TRY(require(is_finite(tt.centre) && std::isfinite(tt.radius) && tt.radius > 0,
+              "centre and radius of the tool touch probe"));
   state_.tt = tt;
   return {};
 }
@@ -99,9 +95,7 @@ MachineResult<void> Control::activate_preset(int number) {
 }
 
 MachineResult<void> Control::set_frames(const Frames& frames) {
-  if (!frames.is_valid()) {
-    return make_fault(FaultKind::ValueInvalid, "a frame is not finite or scales by 0");
-  }
+  TRY(require(frames.is_valid(), "a frame is not finite or scales by 0"));
   state_.frames = frames;
   refresh_table();
   return {};
@@ -111,12 +105,9 @@ MachineResult<void> Control::set_modes(const Modes& modes) {
   if (modes.tcpm && !state_.kinematics_options.tcpm) {
     return make_fault(FaultKind::OptionMissing, "TCPM (tcpm_option of the setup)");
   }
-  if (!(modes.spindle_rpm >= 0) || !(modes.feed_mm_min >= 0)) {
-    return make_fault(FaultKind::ValueInvalid, "spindle speed and feed are 0 or more");
-  }
-  if (!std::isfinite(modes.spindle_deg)) {
-    return make_fault(FaultKind::ValueInvalid, "the spindle is oriented to a finite angle");
-  }
+  TRY(require(modes.spindle_rpm >= 0 && modes.feed_mm_min >= 0,
+              "spindle speed and feed are 0 or more"));
+  TRY(require(std::isfinite(modes.spindle_deg), "the spindle is oriented to a finite angle"));
   state_.modes = modes;
   refresh_table();
   return {};
@@ -130,9 +121,7 @@ MachineResult<void> Control::set_kinematics(const Kinematics& kinematics) {
       return make_fault(FaultKind::ValueInvalid, fmt::format("kinematics of {}", name(axis.axis)));
     }
   }
-  if (!is_finite(kinematics.offset())) {
-    return make_fault(FaultKind::ValueInvalid, "offset of the kinematics");
-  }
+  TRY(require(is_finite(kinematics.offset()), "offset of the kinematics"));
   state_.kinematics = kinematics;
   refresh_table();
   return {};

@@ -115,10 +115,9 @@ Path Control::following_path(const Position& end) const {
 MachineResult<void> Control::move_arc(const ArcMove& arc) {
   TRY(check_feed(arc.feed));
   constexpr double kLongestSweepDeg = 1e6;
-  if (!is_finite(arc.end) || !is_finite(arc.centre) || is_rotary(arc.normal) ||
-      !(std::abs(arc.sweep_deg) <= kLongestSweepDeg)) {
-    return make_fault(FaultKind::ValueInvalid, "an arc needs finite points, a sweep and a plane");
-  }
+  TRY(require(is_finite(arc.end) && is_finite(arc.centre) && !is_rotary(arc.normal) &&
+                  std::abs(arc.sweep_deg) <= kLongestSweepDeg,
+              "an arc needs finite points, a sweep and a plane"));
   const std::size_t up = index(arc.normal);
   const Vec3 normal = unit_vector(arc.normal);
   const Transform input = state_.frames.input();

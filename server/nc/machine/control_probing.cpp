@@ -9,10 +9,9 @@ MachineResult<ContactPoint> Control::probe(const ProbeMove& move) {
   TRY(check_feed(move.retract_feed));
   const Vec3 along = state_.frames.direction_to_machine(move.direction, move.system);
   const double retract = move.retract.value_or(0);
-  if (!is_finite(along) || norm(along) == 0 || !std::isfinite(move.distance) ||
-      move.distance <= 0 || !std::isfinite(retract) || retract < 0) {
-    return make_fault(FaultKind::ValueInvalid, "a probing move needs a direction and a distance");
-  }
+  TRY(require(is_finite(along) && norm(along) != 0 && std::isfinite(move.distance) &&
+                  move.distance > 0 && std::isfinite(retract) && retract >= 0,
+              "a probing move needs a direction and a distance"));
   if (!axes_->capabilities().probes) {
     return make_fault(FaultKind::OptionMissing, "the machine has no probe input");
   }

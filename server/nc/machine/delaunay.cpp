@@ -12,10 +12,7 @@ struct GridPoint {
   std::int64_t x;
   std::int64_t y;
 
-  friend bool operator==(const GridPoint&, const GridPoint&) = default;
-  friend bool operator<(const GridPoint& a, const GridPoint& b) {
-    return a.x != b.x ? a.x < b.x : a.y < b.y;
-  }
+  friend auto operator<=>(const GridPoint&, const GridPoint&) = default;
 };
 
 /// Positive when c lies to the left of a -> b, 0 on the line: exact.
@@ -205,11 +202,9 @@ Triangulation delaunay(const std::vector<Vec3>& points) {
   }
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(),
-                   [&grid](std::uint32_t a, std::uint32_t b) { return grid[a] < grid[b]; });
-  order.erase(std::unique(order.begin(), order.end(),
-                          [&grid](std::uint32_t a, std::uint32_t b) { return grid[a] == grid[b]; }),
-              order.end());
+  const auto at = [&grid](std::uint32_t p) { return grid[p]; };
+  std::ranges::stable_sort(order, {}, at);
+  order.erase(std::ranges::unique(order, {}, at).begin(), order.end());
   std::vector<GridPoint> sorted;
   sorted.reserve(order.size());
   for (const std::uint32_t p : order) sorted.push_back(grid[p]);

@@ -53,4 +53,9 @@ MachineFault make_fault(FaultKind kind, std::string_view detail = {});
 template <class T>
 using MachineResult = boost::system::result<T, MachineFault>;
 
+/// @faults ValueInvalid unless a condition holds.
+inline MachineResult<void> require(bool holds, std::string_view detail) {
+  return holds ? MachineResult<void>() : make_fault(FaultKind::ValueInvalid, detail);
+}
+
 }  // namespace fitgauge::machine

@@ -48,14 +48,16 @@ class Frames {
  public:
   Frames();
 
-  void set_table(const Transform& table);
-  void set_preset(const PresetFrame& preset);
-  void set_plane(const std::optional<TiltedPlane>& plane);
-  void set_datum_shift(const Position& shift);           ///< cycle 7, TRANS DATUM: mm and degrees
-  void set_mirror(const std::array<bool, 3>& mirrored);  ///< cycle 8: X, Y, Z change their sign
-  void set_rotation(const PlaneRotation& rotation);
+  void set_table(const Transform& table) { set(table_, table); }
+  void set_preset(const PresetFrame& preset) { set(preset_, preset); }
+  void set_plane(const std::optional<TiltedPlane>& plane) { set(plane_, plane); }
+  /// Cycle 7, TRANS DATUM: mm and degrees.
+  void set_datum_shift(const Position& shift) { set(shift_, shift); }
+  /// Cycle 8: X, Y, Z change their sign.
+  void set_mirror(const std::array<bool, 3>& mirrored) { set(mirror_, mirrored); }
+  void set_rotation(const PlaneRotation& rotation) { set(rotation_, rotation); }
   /// @pre no factor is 0.
-  void set_scaling(const Scaling& scaling);
+  void set_scaling(const Scaling& scaling) { set(scaling_, scaling); }
   /// Resets the frames of cycle 247: datum shift (also the shift before tilting), mirror, rotation,
   /// scaling.
   void reset_transformations();
@@ -76,26 +78,42 @@ class Frames {
 
   /// Converts points in mm. Machine and Reference have the same axes and zero, so both leave a
   /// point unchanged: MachineState decides which point of the tool is meant.
-  Vec3 to_machine(const Vec3& point, CoordinateSystem system = CoordinateSystem::Input) const;
-  Vec3 from_machine(const Vec3& point, CoordinateSystem system = CoordinateSystem::Input) const;
+  Vec3 to_machine(const Vec3& point, CoordinateSystem system = CoordinateSystem::Input) const {
+    return transform(system).point(point);
+  }
+  Vec3 from_machine(const Vec3& point, CoordinateSystem system = CoordinateSystem::Input) const {
+    return transform(system).point_before(point);
+  }
 
   /// Directions; active scaling changes their length.
   Vec3 direction_to_machine(const Vec3& direction,
-                            CoordinateSystem system = CoordinateSystem::Input) const;
+                            CoordinateSystem system = CoordinateSystem::Input) const {
+    return transform(system).direction(direction);
+  }
   Vec3 direction_from_machine(const Vec3& direction,
-                              CoordinateSystem system = CoordinateSystem::Input) const;
+                              CoordinateSystem system = CoordinateSystem::Input) const {
+    return transform(system).direction_before(direction);
+  }
 
   /// Converts input coordinates to Machine coordinates.
   const Transform& input() const { return input_; }
 
   /// Rotary positions A, B, C in degrees: offsets of the preset and the datum shift.
-  Vec3 rotary_to_machine(const Vec3& rotary, CoordinateSystem system) const;
-  Vec3 rotary_from_machine(const Vec3& rotary, CoordinateSystem system) const;
+  Vec3 rotary_to_machine(const Vec3& rotary, CoordinateSystem system) const {
+    return rotary + rotary_zero(system);
+  }
+  Vec3 rotary_from_machine(const Vec3& rotary, CoordinateSystem system) const {
+    return rotary - rotary_zero(system);
+  }
 
  private:
+  template <class Part>
+  void set(Part& part, const Part& value) {
+    part = value;
+    compose();
+  }
   void compose();
   const Transform& transform(CoordinateSystem system) const;
-  const Transform& inverse(CoordinateSystem system) const;
   Vec3 rotary_zero(CoordinateSystem system) const;
 
   Transform table_;
@@ -109,9 +127,6 @@ class Frames {
   Transform machine_;    ///< the identity
   Transform workpiece_;  ///< workpiece system to machine
   Transform input_;      ///< input system to machine
-  Transform table_inverse_;
-  Transform workpiece_inverse_;
-  Transform input_inverse_;
 };
 
 }  // namespace fitgauge::machine

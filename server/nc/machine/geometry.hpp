@@ -95,6 +95,9 @@ class Transform {
 
   Vec3 point(const Vec3& p) const { return linear_ * p + offset_; }
   Vec3 direction(const Vec3& d) const { return linear_ * d; }
+  /// The point and the direction that come there.
+  Vec3 point_before(const Vec3& p) const { return inverse_linear_ * p + inverse_offset_; }
+  Vec3 direction_before(const Vec3& d) const { return inverse_linear_ * d; }
   const Matrix3& linear() const { return linear_; }
 
   bool is_finite() const;

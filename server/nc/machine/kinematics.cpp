@@ -82,12 +82,11 @@ double way(const Vec3& from, const Vec3& to) {
 Kinematics::Kinematics(std::vector<RotaryAxis> axes, const Vec3& offset)
     : axes_(std::move(axes)), offset_(offset) {
   for (RotaryAxis& axis : axes_) axis.direction = unit(axis.direction);
-  std::sort(axes_.begin(), axes_.end(), stands_before);
+  std::ranges::sort(axes_, stands_before);
 }
 
 const RotaryAxis* Kinematics::find(Axis axis) const {
-  const auto found = std::find_if(axes_.begin(), axes_.end(),
-                                  [axis](const RotaryAxis& known) { return known.axis == axis; });
+  const auto found = std::ranges::find(axes_, axis, &RotaryAxis::axis);
   return found == axes_.end() ? nullptr : &*found;
 }
 
@@ -142,7 +141,7 @@ std::vector<Vec3> Kinematics::orientations(const Vec3& normal, const Vec3& shown
     const auto same = [&](const Vec3& other) {
       return way(rotary, other) < tolerance::kSameDirection;
     };
-    if (std::none_of(found.begin(), found.end(), same)) found.push_back(rotary);
+    if (std::ranges::none_of(found, same)) found.push_back(rotary);
   };
 
   keep(current);
@@ -163,8 +162,7 @@ std::vector<Vec3> Kinematics::orientations(const Vec3& normal, const Vec3& shown
     return std::pair(std::round(way(current, rotary) / tolerance::kSameAngle),
                      -(rotary.x + rotary.y));
   };
-  std::stable_sort(found.begin(), found.end(),
-                   [&](const Vec3& a, const Vec3& b) { return order(a) < order(b); });
+  std::ranges::stable_sort(found, {}, order);
   if (zeros != Vec3{}) {
     for (Vec3& rotary : found) rotary = rotary - zeros;
   }

@@ -92,6 +92,12 @@ class MachineState {
   Axis tool_axis() const { return tool.axis.value_or(Axis::Z); }
   /// The row of the tool in the spindle, or null.
   const Tool* active_tool() const { return tools.find(tool.number); }
+  /// The row of the preset table; a new one begins as the active preset.
+  Preset preset_row(int number) const {
+    const Preset* row = presets.find(number);
+    return row != nullptr ? *row
+                          : Preset{.number = number, .comment = {}, .frame = frames.preset()};
+  }
   /// L + DL (ZL + DZL of a lathe tool) + DL of the call, in mm; 0 with an empty spindle: Q114.
   double tool_length() const;
   /// R + DR + DR of the call, in mm: Q108.

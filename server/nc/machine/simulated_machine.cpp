@@ -131,9 +131,8 @@ void SimulatedAxes::turn(const Vec3& rotary) {
 
 SimulatedAxes::RealTool SimulatedAxes::real_tool(const SpindleTool& known) const {
   RealTool real{known.axis, known.length, known.radius, {}, nullptr, false};
-  const int number = known.number;
-  const auto tool = std::find_if(setup_.tools.begin(), setup_.tools.end(),
-                                 [=](const ToolSetup& t) { return t.row.number == number; });
+  const auto tool = std::ranges::find(setup_.tools, known.number,
+                                      [](const ToolSetup& t) { return t.row.number; });
   if (tool == setup_.tools.end()) return real;
   if (const auto& lathe = tool->row.lathe) {
     const double xl = tool->actual_xl.value_or(lathe->xl + lathe->dxl);
@@ -147,9 +146,8 @@ SimulatedAxes::RealTool SimulatedAxes::real_tool(const SpindleTool& known) const
   }
   real.length = tool->actual_length.value_or(tool->row.l + tool->row.dl);
   real.radius = tool->actual_radius.value_or(tool->row.r + tool->row.dr);
-  const int row = tool->row.probe;
-  const auto probe = std::find_if(setup_.probes.begin(), setup_.probes.end(),
-                                  [=](const ProbeSetup& p) { return p.row.number == row; });
+  const auto probe = std::ranges::find(setup_.probes, tool->row.probe,
+                                       [](const ProbeSetup& p) { return p.row.number; });
   if (probe == setup_.probes.end()) return real;
   real.probe = &*probe;
   real.offset = turned_offset(probe->centre_offset, known.axis, known.spindle_deg);
@@ -277,12 +275,16 @@ MachineResult<double> SimulatedAxes::probe_contact(const Vec3& direction, double
   if (!touched) return make_fault(FaultKind::NoContact);
   touching_ = start + on_table * *touched;
   table_at_contact_ = real_table(nose_.rotary);
-  double way = *touched;
-  if (tool.probe != nullptr) {
-    way += tool.probe->pretravel_um * kMillimetresPerMicrometre;
-    if (tool.probe->repeatability_um != 0) {
-      way += tool.probe->repeatability_um * kMillimetresPerMicrometre * random_.normal();
-    }
+  if (tool.probe == nullptr) return triggered(*touched, 0, distance);
+  const double way = *touched + tool.probe->pretravel_um * kMillimetresPerMicrometre;
+  return triggered(way, tool.probe->repeatability_um, distance);
+}
+
+/// The way after which a probe reports its contact, if that is within the distance.
+MachineResult<double> SimulatedAxes::triggered(double way, double repeatability_um,
+                                               double distance) {
+  if (repeatability_um != 0) {
+    way += repeatability_um * kMillimetresPerMicrometre * random_.normal();
   }
   if (way > distance) return make_fault(FaultKind::NoContact);
   return std::max(way, 0.0);
@@ -304,12 +306,7 @@ MachineResult<double> SimulatedAxes::plate_contact(const Vec3& direction, double
     return make_fault(FaultKind::StylusDeflected);
   const auto touched = plate.contact(tip, direction, edge, distance, allowance);
   if (!touched) return make_fault(FaultKind::NoContact);
-  double way = *touched;
-  if (setup_.tt.repeatability_um != 0) {
-    way += setup_.tt.repeatability_um * kMillimetresPerMicrometre * random_.normal();
-  }
-  if (way > distance) return make_fault(FaultKind::NoContact);
-  return std::max(way, 0.0);
+  return triggered(*touched, setup_.tt.repeatability_um, distance);
 }
 
 }  // namespace fitgauge::machine

@@ -54,6 +54,7 @@ class SimulatedAxes final : public Axes {
   MachineResult<double> plate_contact(const Vec3& direction, double distance, const RealTool& tool,
                                       Allowance& allowance);
 
+  MachineResult<double> triggered(double way, double repeatability_um, double distance);
   std::optional<PartFeature> rectangle_at(const Vec3& place) const;
 
   /// A bore or boss of the part, and its centre.

@@ -13,35 +13,11 @@ int LatheTool::tip_z() const {
   return orientation == 1 || orientation == 7 || orientation == 8 ? -1 : 0;
 }
 
-const Tool* ToolTable::find(int number) const {
-  const auto row = rows_.find(number);
-  return row == rows_.end() ? nullptr : &row->second;
-}
-
 const Tool* ToolTable::find(std::string_view name) const {
-  const auto row = std::find_if(rows_.begin(), rows_.end(), [name](const auto& entry) {
-    return ascii_iequals(entry.second.name, name);
-  });
-  return row == rows_.end() ? nullptr : &row->second;
+  const auto row = std::ranges::find_if(
+      rows(), [name](const auto& entry) { return ascii_iequals(entry.second.name, name); });
+  return row == rows().end() ? nullptr : &row->second;
 }
-
-void ToolTable::write(const Tool& tool) { rows_.insert_or_assign(tool.number, tool); }
-
-PresetTable::PresetTable() { rows_.emplace(0, Preset{}); }
-
-const Preset* PresetTable::find(int number) const {
-  const auto row = rows_.find(number);
-  return row == rows_.end() ? nullptr : &row->second;
-}
-
-void PresetTable::write(const Preset& preset) { rows_.insert_or_assign(preset.number, preset); }
-
-const ProbeRow* ProbeTable::find(int number) const {
-  const auto row = rows_.find(number);
-  return row == rows_.end() ? nullptr : &row->second;
-}
-
-void ProbeTable::write(const ProbeRow& row) { rows_.insert_or_assign(row.number, row); }
 
 Vec3 turned_offset(const std::array<double, 2>& offset, Axis tool_axis, double spindle_deg) {
   Vec3 straight;

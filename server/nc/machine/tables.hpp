@@ -79,17 +79,28 @@ struct Tool {
   friend bool operator==(const Tool&, const Tool&) = default;
 };
 
-/// tool.t. Not thread-safe; a write replaces a whole row.
-class ToolTable {
+/// A table of the control by the numbers of its rows. Not thread-safe; a write replaces a whole
+/// row.
+template <class Row>
+class NumberedTable {
  public:
-  const Tool* find(int number) const;
-  /// The tool of the lowest number with that name.
-  const Tool* find(std::string_view name) const;
-  void write(const Tool& tool);
-  const std::map<int, Tool>& rows() const { return rows_; }
+  const Row* find(int number) const {
+    const auto row = rows_.find(number);
+    return row == rows_.end() ? nullptr : &row->second;
+  }
+  void write(const Row& row) { rows_.insert_or_assign(row.number, row); }
+  const std::map<int, Row>& rows() const { return rows_; }
 
  private:
-  std::map<int, Tool> rows_;
+  std::map<int, Row> rows_;
+};
+
+/// tool.t.
+class ToolTable : public NumberedTable<Tool> {
+ public:
+  using NumberedTable::find;
+  /// The tool of the lowest number with that name.
+  const Tool* find(std::string_view name) const;
 };
 
 /// The last row that preset.pr can have.
@@ -105,16 +116,10 @@ struct Preset {
   friend bool operator==(const Preset&, const Preset&) = default;
 };
 
-/// preset.pr. Not thread-safe; a write replaces a whole row. Row 0 always exists.
-class PresetTable {
+/// preset.pr. Row 0 always exists.
+class PresetTable : public NumberedTable<Preset> {
  public:
-  PresetTable();
-  const Preset* find(int number) const;
-  void write(const Preset& preset);
-  const std::map<int, Preset>& rows() const { return rows_; }
-
- private:
-  std::map<int, Preset> rows_;
+  PresetTable() { write(Preset{}); }
 };
 
 enum class PrePositioning : std::uint8_t { ProbeRapid, MachineRapid };
@@ -139,16 +144,8 @@ struct ProbeRow {
   friend bool operator==(const ProbeRow&, const ProbeRow&) = default;
 };
 
-/// tchprobe.tp. Not thread-safe; a write replaces a whole row.
-class ProbeTable {
- public:
-  const ProbeRow* find(int number) const;
-  void write(const ProbeRow& row);
-  const std::map<int, ProbeRow>& rows() const { return rows_; }
-
- private:
-  std::map<int, ProbeRow> rows_;
-};
+/// tchprobe.tp.
+using ProbeTable = NumberedTable<ProbeRow>;
 
 /// An offset along the main and the secondary axis, turned with the spindle, as a vector in machine
 /// coordinates.

@@ -1,5 +1,7 @@
 #include "nc/machine/tracing_machine.hpp"
 
+#include "base/text.hpp"
+
 namespace fitgauge::machine {
 namespace {
 
@@ -63,10 +65,7 @@ std::string text_of(const ToolCall& call) {
 
 }  // namespace
 
-std::string_view name(MoveKind kind) {
-  constexpr std::array<std::string_view, 4> kNames{"rapid", "feed", "probe", "arc"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
+std::string_view name(MoveKind kind) { return word_of(kind, {"rapid", "feed", "probe", "arc"}); }
 
 TracingMachine::TracingMachine(Machine& inner, TraceOptions options)
     : inner_(inner), options_(std::move(options)) {}

@@ -48,6 +48,12 @@ double area_from_above(const Vec3& a, const Vec3& b, double x, double y) {
   return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
+Box box_of(const Triangle& triangle) {
+  Box box = Box::nothing();
+  for (const Vec3& corner : triangle) box.join({corner, corner});
+  return box;
+}
+
 }  // namespace
 
 Vec3 nearest_point(const Triangle& triangle, const Vec3& at) {
@@ -97,16 +103,6 @@ std::optional<double> contact(const Triangle& triangle, const BallPath& ball) {
   }
   return first;
 }
-
-namespace {
-
-Box box_of(const Triangle& triangle) {
-  Box box = Box::nothing();
-  for (const Vec3& corner : triangle) box.join({corner, corner});
-  return box;
-}
-
-}  // namespace
 
 TriangleTree::TriangleTree(const std::vector<Triangle>& triangles) {
   std::vector<Box> boxes;

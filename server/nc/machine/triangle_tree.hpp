@@ -2,7 +2,6 @@
 
 #include "nc/machine/box_tree.hpp"
 #include "nc/machine/geometry.hpp"
-#include "nc/machine/solid.hpp"
 
 namespace fitgauge::machine {
 

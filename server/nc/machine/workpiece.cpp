@@ -3,7 +3,6 @@
 #include "nc/machine/bore_void.hpp"
 #include "nc/machine/solid.hpp"
 #include "nc/machine/sphere_tracing.hpp"
-#include "nc/machine/surface_solid.hpp"
 #include "nc/machine/tolerance.hpp"
 
 namespace fitgauge::machine {
@@ -36,6 +35,15 @@ std::optional<Vec3> nearest_on_edge(const Vec3& at, Vec3 from, const First& firs
   }
   return std::nullopt;
 }
+
+std::unique_ptr<const Solid> solid_of(const Block& f) { return std::make_unique<BlockSolid>(f); }
+std::unique_ptr<const Solid> solid_of(const Boss& f) { return std::make_unique<BossSolid>(f); }
+std::unique_ptr<const Solid> solid_of(const Plane& f) { return std::make_unique<PlaneSolid>(f); }
+std::unique_ptr<const Solid> solid_of(const Sphere& f) { return std::make_unique<SphereSolid>(f); }
+std::unique_ptr<const Solid> solid_of(const Surface& f) {
+  return std::make_unique<SurfaceSolid>(f);
+}
+std::unique_ptr<const Solid> solid_of(const Mesh& f) { return std::make_unique<MeshSolid>(f); }
 
 }  // namespace
 
@@ -213,19 +221,6 @@ std::optional<double> Workpiece::Part::contact(const BallPath& ball, Allowance& 
   return traced ? std::optional(way + *traced) : std::nullopt;
 }
 
-namespace {
-
-std::unique_ptr<const Solid> solid_of(const Block& f) { return std::make_unique<BlockSolid>(f); }
-std::unique_ptr<const Solid> solid_of(const Boss& f) { return std::make_unique<BossSolid>(f); }
-std::unique_ptr<const Solid> solid_of(const Plane& f) { return std::make_unique<PlaneSolid>(f); }
-std::unique_ptr<const Solid> solid_of(const Sphere& f) { return std::make_unique<SphereSolid>(f); }
-std::unique_ptr<const Solid> solid_of(const Surface& f) {
-  return std::make_unique<SurfaceSolid>(f);
-}
-std::unique_ptr<const Solid> solid_of(const Mesh& f) { return std::make_unique<MeshSolid>(f); }
-
-}  // namespace
-
 void Workpiece::join(const Bore& bore) {
   const auto shared = std::make_shared<const BoreVoid>(bore);
   for (Part& part : parts_) {
@@ -310,14 +305,6 @@ std::optional<Vec3> Workpiece::normal(const Vec3& at) const {
   constexpr double kClear = 0.99;
   if (!(length > kClear)) return std::nullopt;
   return gradient * (1 / length);
-}
-
-std::optional<double> Workpiece::traced_contact(const Vec3& start, const Vec3& direction,
-                                                double radius, double longest) const {
-  if (parts_.empty()) return std::nullopt;
-  Allowance unlimited;
-  return first_zero([&](double way) { return clearance(start + direction * way, radius); }, longest,
-                    least_step(radius), unlimited);
 }
 
 }  // namespace fitgauge::machine

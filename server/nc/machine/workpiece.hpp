@@ -43,10 +43,6 @@ class Workpiece {
   /// between two surfaces.
   std::optional<Vec3> normal(const Vec3& at) const;
 
-  /// Result of `contact` by tracing step by step: the reference for `contact`. Slow.
-  std::optional<double> traced_contact(const Vec3& start, const Vec3& direction, double radius,
-                                       double longest) const;
-
  private:
   struct Part;
 

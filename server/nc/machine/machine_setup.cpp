@@ -1,5 +1,6 @@
-#include "nc/machine/delaunay.hpp"
 #include "nc/machine/machine_setup.hpp"
+
+#include "nc/machine/delaunay.hpp"
 #include "nc/machine/tolerance.hpp"
 
 namespace fitgauge::machine {
@@ -13,6 +14,9 @@ class Findings {
  public:
   void add(std::string where, std::string message, ErrorCode code = ErrorCode::FieldInvalid) {
     found_.push_back({code, std::move(message), std::move(where), {}});
+  }
+  void conflict(std::string where, std::string message) {
+    add(std::move(where), std::move(message), ErrorCode::FieldConflict);
   }
   /// A finite number between two bounds, both included.
   void within(const std::string& where, double value, double least, double most) {
@@ -53,8 +57,7 @@ void check_axis(Findings& findings, const std::string& at, Axis axis, const Axis
   findings.within(at + "/min_" + unit, setup.min, -most, most);
   findings.within(at + "/max_" + unit, setup.max, -most, most);
   if (!(setup.min < setup.max)) {
-    findings.add(at + "/max_" + unit, "the upper end must be above the lower end",
-                 ErrorCode::FieldConflict);
+    findings.conflict(at + "/max_" + unit, "the upper end must be above the lower end");
   }
   if (!is_rotary(axis)) return;
   findings.within(at + "/hirth_grid_deg", setup.hirth_grid_deg, 0, 180);
@@ -73,8 +76,7 @@ void check_start(Findings& findings, const MachineSetup& setup) {
     const std::string at = fmt::format("/machine/start_mm/{}", name(axis));
     const auto& known = setup.axes[index(axis)];
     if (!known) {
-      findings.add(at, fmt::format("the machine has no axis {}", name(axis)),
-                   ErrorCode::FieldConflict);
+      findings.conflict(at, fmt::format("the machine has no axis {}", name(axis)));
     } else {
       findings.within(at, *setup.start[axis], known->min, known->max);
     }
@@ -90,16 +92,12 @@ void check_numbers(Findings& findings, const std::string& at, const Rows& rows, 
     const std::string where = fmt::format("{}/{}/number", at, k);
     findings.within(where, number, least, 65535);
     if (!seen.insert(number).second) {
-      findings.add(where, fmt::format("number {} is repeated", number), ErrorCode::FieldConflict);
+      findings.conflict(where, fmt::format("number {} is repeated", number));
     }
   }
 }
 
 constexpr double kLongestToolMm = 10000;
-
-void conflict(Findings& findings, const std::string& where, std::string message) {
-  findings.add(where, std::move(message), ErrorCode::FieldConflict);
-}
 
 void check_lathe_tool(Findings& findings, const std::string& at, const Tool& row) {
   const LatheTool& lathe = *row.lathe;
@@ -111,10 +109,10 @@ void check_lathe_tool(Findings& findings, const std::string& at, const Tool& row
   findings.within(at + "/lathe/to", lathe.orientation, 0, 9);
   findings.within(at + "/lathe/ori_deg", lathe.ori, -360, 360);
   if (row.l != 0 || row.r != 0 || row.dl != 0 || row.dr != 0) {
-    conflict(findings, at + "/lathe",
-             "a lathe tool has ZL, XL, DZL and DXL in place of L, R, DL and DR");
+    findings.conflict(at + "/lathe",
+                      "a lathe tool has ZL, XL, DZL and DXL in place of L, R, DL and DR");
   }
-  if (row.is_probe()) conflict(findings, at + "/lathe", "a touch probe is no lathe tool");
+  if (row.is_probe()) findings.conflict(at + "/lathe", "a touch probe is no lathe tool");
 }
 
 void check_tools(Findings& findings, const MachineSetup& setup) {
@@ -132,17 +130,16 @@ void check_tools(Findings& findings, const MachineSetup& setup) {
     findings.within(at + "/radius_offset_mm", row.r_offset, -1000, 1000);
     if (row.lathe) check_lathe_tool(findings, at, row);
     if (row.lathe && radius) {
-      conflict(findings, at + "/actual_radius_mm", "a lathe tool has actual_xl_mm in its place");
+      findings.conflict(at + "/actual_radius_mm", "a lathe tool has actual_xl_mm in its place");
     }
     if (xl) {
       findings.within(at + "/actual_xl_mm", *xl, -kLongestToolMm, kLongestToolMm);
-      if (!row.lathe) conflict(findings, at + "/actual_xl_mm", "only a lathe tool has XL");
+      if (!row.lathe) findings.conflict(at + "/actual_xl_mm", "only a lathe tool has XL");
     }
     if (!row.is_probe()) continue;
     const auto same = [&row = row](const ProbeSetup& p) { return p.row.number == row.probe; };
-    if (std::none_of(setup.probes.begin(), setup.probes.end(), same)) {
-      findings.add(at + "/probe", fmt::format("probe not found: {}", row.probe),
-                   ErrorCode::FieldConflict);
+    if (std::ranges::none_of(setup.probes, same)) {
+      findings.conflict(at + "/probe", fmt::format("probe not found: {}", row.probe));
     }
     constexpr double kSmallestBall = 0.01;
     if (radius.value_or(row.r + row.dr) < kSmallestBall) {
@@ -184,12 +181,10 @@ void check_presets(Findings& findings, const MachineSetup& setup) {
     findings.point(at + "/rotation_deg", frame.basic_rotation_deg, 360);
     findings.point(at + "/offsets_deg", frame.rotary_offsets_deg, kLargestDeg);
   }
-  const auto is_active = [&](const Preset& p) { return p.number == setup.active_preset; };
-  const bool exists = setup.active_preset == 0 ||
-                      std::any_of(setup.presets.begin(), setup.presets.end(), is_active);
-  if (!exists) {
-    findings.add("/machine/active_preset", fmt::format("preset not found: {}", setup.active_preset),
-                 ErrorCode::FieldConflict);
+  if (setup.active_preset != 0 && std::ranges::find(setup.presets, setup.active_preset,
+                                                    &Preset::number) == setup.presets.end()) {
+    findings.conflict("/machine/active_preset",
+                      fmt::format("preset not found: {}", setup.active_preset));
   }
 }
 
@@ -203,8 +198,8 @@ struct CheckFeature {
     findings.point(at + "/max_mm", block.max);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (block.min[axis] < block.max[axis]) continue;
-      findings.add(fmt::format("{}/max_mm/{}", at, axis),
-                   "the upper corner must be above the lower corner", ErrorCode::FieldConflict);
+      findings.conflict(fmt::format("{}/max_mm/{}", at, axis),
+                        "the upper corner must be above the lower corner");
     }
   }
 
@@ -224,8 +219,7 @@ struct CheckFeature {
     if (!(amplitude <= bore.diameter / 4)) {
       findings.add(at + "/lobe_amplitude_um", "must be at most a quarter of the diameter");
     } else if (narrowest - amplitude <= 0) {
-      findings.add(at + "/taper_um_per_mm", "the bore must not close before its depth",
-                   ErrorCode::FieldConflict);
+      findings.conflict(at + "/taper_um_per_mm", "the bore must not close before its depth");
     }
   }
 
@@ -259,8 +253,7 @@ struct CheckFeature {
       if (is_finite(p) && norm(p) < 2 * kLongestMm &&
           !places.insert({std::llround(p.x * kNanometres), std::llround(p.y * kNanometres)})
                .second) {
-        findings.add(where, "a surface must have one height at each X and Y",
-                     ErrorCode::FieldConflict);
+        findings.conflict(where, "a surface must have one height at each X and Y");
       }
     }
     if (places.size() == surface.points.size() && delaunay(surface.points).triangles.empty()) {
@@ -299,8 +292,7 @@ void check_standards(Findings& findings, const MachineSetup& setup) {
     const std::string at = "/machine/calibration_ring";
     CheckFeature{findings, at}(Boss{ring->centre, ring->top, ring->height, ring->diameter});
     if (!(ring->outside() > ring->diameter && ring->outside() <= kLongestMm)) {
-      findings.add(at + "/outer_diameter_mm", "must be more than the diameter of the hole",
-                   ErrorCode::FieldConflict);
+      findings.conflict(at + "/outer_diameter_mm", "must be more than the diameter of the hole");
     }
   }
   if (setup.calibration_stud) {
@@ -336,6 +328,56 @@ Result<void> validate(const Setup& setup) {
     std::visit(CheckFeature{findings, at}, feature);
   });
   return std::move(findings).result();
+}
+
+AxisSetup AxisSetup::of(Axis axis) {
+  AxisSetup setup;
+  setup.direction = unit_vector(axis);
+  if (is_rotary(axis)) {
+    setup.max = axis == Axis::C ? 360 : 120;
+    setup.min = -setup.max;
+  }
+  return setup;
+}
+
+RotaryAxis AxisSetup::modelled(Axis axis) const {
+  return {axis, mount, mount == AxisMount::Head ? Vec3{} : centre, direction};
+}
+
+RotaryAxis AxisSetup::built(Axis axis) const {
+  RotaryAxis real = modelled(axis);
+  real.centre = real.centre + centre_error;
+  real.direction = Matrix3::spatial(tilt_error_deg) * real.direction;
+  real.zero_deg = zero_error_deg;
+  return real;
+}
+
+Position MachineSetup::start_position() const {
+  Position position;
+  for (const Axis axis : kAllAxes) {
+    if (start[axis]) {
+      position[axis] = *start[axis];
+    } else if (axis == Axis::Z && axes[index(axis)]) {
+      position[axis] = axes[index(axis)]->max;
+    }
+  }
+  return position;
+}
+
+ToolSetup MachineSetup::default_probe_tool() {
+  ToolSetup tool;
+  tool.row.number = 30;
+  tool.row.name = "PROBE";
+  tool.row.l = 120;
+  tool.row.r = 2;
+  tool.row.probe = 1;
+  return tool;
+}
+
+Preset MachineSetup::default_preset() {
+  Preset preset;
+  preset.number = 1;
+  return preset;
 }
 
 }  // namespace fitgauge::machine
