@@ -1,12 +1,9 @@
 #include "nc/probing/cycle_fault.hpp"
 
+#include "log_templates.hpp"
+
 namespace fitgauge::probing {
 namespace {
-
-constexpr int kFirst = 1000;
-constexpr std::array<std::string_view, 110> kTexts{
-#include "nc/probing/error_texts.inc"
-};
 
 std::string with_detail(std::string_view text, std::string_view detail) {
   return detail.empty() ? std::string(text) : fmt::format("{}: {}", text, detail);
@@ -15,8 +12,11 @@ std::string with_detail(std::string_view text, std::string_view detail) {
 }  // namespace
 
 std::string_view error_text(int number) {
-  const auto index = static_cast<std::size_t>(number - kFirst);
-  return number >= kFirst && index < kTexts.size() ? kTexts[index] : std::string_view{};
+  constexpr int kFirst = 1000;
+  std::string_view rest = templates::error_texts::all;
+  for (int at = kFirst; at < number && !rest.empty(); ++at)
+    rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
+  return number < kFirst ? std::string_view() : rest.substr(0, rest.find('\n'));
 }
 
 CycleFault nc_error(int number, std::string_view detail) {

@@ -1,13 +1,15 @@
 #include "nc/probing/cycles.hpp"
 
+#include <cassert>
+
 namespace fitgauge::probing {
 
 std::span<const TouchProbeCycle* const> cycles() {
   static const std::vector<const TouchProbeCycle*> kCycles = [] {
     std::vector<const TouchProbeCycle*> all;
-    for (const auto& file : {kAlignmentCycles, kCalibrationCycles, kDottedCycles, kKinematicsCycles,
-                             kObjectCycles, kOtherCycles, kPresetCycles, kProbing3dCycles,
-                             kSizeCycles, kToolCycles}) {
+    for (const auto& file :
+         {kAlignmentCycles, kCalibrationCycles, kDottedCycles, kKinematicsCycles, kObjectCycles,
+          kOtherCycles, kPresetCycles, kProbing3dCycles, kSizeCycles, kToolCycles}) {
       for (const TouchProbeCycle& cycle : file) all.push_back(&cycle);
     }
     std::ranges::sort(all, {}, [](const TouchProbeCycle* cycle) {
@@ -23,6 +25,16 @@ const TouchProbeCycle* find_cycle(CycleFamily family, int number) {
     return cycle->descriptor.family == family && cycle->descriptor.number == number;
   });
   return found == cycles().end() ? nullptr : *found;
+}
+
+CycleResult<void> run_cycle(const TouchProbeCycle& cycle, Arguments arguments,
+                            machine::Machine& machine, CycleHost& host) {
+  TRY(arguments.complete());
+  if (cycle.check != nullptr) TRY(cycle.check(arguments));
+  auto done = cycle.execute({std::move(arguments), machine, host});
+  assert(done || done.error().number == 0 ||
+         errors_of(cycle.descriptor).contains(done.error().number));
+  return done;
 }
 
 }  // namespace fitgauge::probing

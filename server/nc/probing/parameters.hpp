@@ -49,11 +49,10 @@ constexpr CycleParameter newer(CycleParameter parameter) {
   return parameter;
 }
 
-/// The parameters of one list and then of another.
-template <std::size_t A, std::size_t B>
-constexpr std::array<CycleParameter, A + B> join(const std::array<CycleParameter, A>& first,
-                                                 const std::array<CycleParameter, B>& second) {
-  std::array<CycleParameter, A + B> all;
+/// The parameters or results of one list and then of another.
+template <class T, std::size_t A, std::size_t B>
+constexpr std::array<T, A + B> join(const std::array<T, A>& first, const std::array<T, B>& second) {
+  std::array<T, A + B> all;
   std::ranges::copy(first, all.begin());
   std::ranges::copy(second, all.begin() + A);
   return all;
@@ -136,16 +135,74 @@ inline constexpr CycleParameter kReferenceAngle = angle(307, "Angle of the refer
 inline constexpr CycleParameter kTransfer = choice(
     303, "Measured value transfer: 0 datum table, 1 preset table, -1 of old programs", -1, 1, 1);
 
-/// Results of 421, 422 and 430.
-inline constexpr std::array<CycleOutput, 9> kCircleResults{
+/// The words of the dotted cycles 0 to 4 and 30 to 33.
+constexpr CycleParameter in_part(std::uint8_t part, CycleParameter parameter) {
+  parameter.part = part;
+  return parameter;
+}
+constexpr CycleParameter result_parameter(std::uint8_t part, double last = 1999) {
+  return in_part(part, {.id = ParameterId::WordResult,
+                        .meaning = "Q parameter for the result",
+                        .kind = ValueKind::Whole,
+                        .range = {0, last}});
+}
+constexpr CycleParameter height_parameter(std::uint8_t part) {
+  return in_part(part, {.id = ParameterId::WordHeight,
+                        .meaning = kClearanceHeight.meaning,
+                        .unit = Unit::Length,
+                        .range = kClearanceHeight.range});
+}
+
+inline constexpr std::array<CycleOutput, 3> kStatusResults{
+    {{180, "Good", Unit::None}, {181, "Rework", Unit::None}, {182, "Reject", Unit::None}}};
+
+/// Results of 412, 413 and 416.
+inline constexpr std::array<CycleOutput, 3> kPresetCircleResults{
     {{151, "Centre, main axis", Unit::Length},
      {152, "Centre, secondary axis", Unit::Length},
-     {153, "Diameter", Unit::Length},
-     {161, "Deviation of the centre, main axis", Unit::Length},
-     {162, "Deviation of the centre, secondary axis", Unit::Length},
-     {163, "Deviation of the diameter", Unit::Length},
-     {180, "Good", Unit::None},
-     {181, "Rework", Unit::None},
-     {182, "Reject", Unit::None}}};
+     {153, "Diameter", Unit::Length}}};
+
+/// Results of 410 and 411.
+inline constexpr std::array<CycleOutput, 4> kRectangleResults{
+    {{151, "Centre, main axis", Unit::Length},
+     {152, "Centre, secondary axis", Unit::Length},
+     {154, "Length, main axis", Unit::Length},
+     {155, "Length, secondary axis", Unit::Length}}};
+
+/// Results of 421, 422 and 430.
+inline constexpr std::array kCircleResults = join(
+    join(kPresetCircleResults,
+         std::array<CycleOutput, 3>{{{161, "Deviation of the centre, main axis", Unit::Length},
+                                     {162, "Deviation of the centre, secondary axis", Unit::Length},
+                                     {163, "Deviation of the diameter", Unit::Length}}}),
+    kStatusResults);
 
 }  // namespace fitgauge::probing::parameter
+
+/// Errors that cycles share, for their descriptors. Errors of single values (1004, 1011) follow
+/// from the parameters.
+namespace fitgauge::probing::errors {
+
+/// Tool axis, tool, touch probe; 30 to 33 and 480 to 484 do not use these.
+inline constexpr ErrorSet kWithProbe{1001, 1092, 1093};
+/// Adds 1014: nothing is within reach.
+inline constexpr ErrorSet kTouching = kWithProbe | ErrorSet{1014};
+/// Adds 1108: scaling factors differ by axis.
+inline constexpr ErrorSet kMeasuring = kTouching | ErrorSet{1108};
+/// Adds 1007 and 1008: cycles that do not allow scaling or mirror.
+inline constexpr ErrorSet kUnscaled = kTouching | ErrorSet{1007, 1008};
+/// Adds the errors of the target of a datum (Q303, Q305).
+inline constexpr ErrorSet kDatumTransfer = kUnscaled | ErrorSet{1043, 1078, 1085};
+/// Errors of the step angle and of points on a line.
+inline constexpr ErrorSet kCircle{1066, 1067, 1081};
+/// Errors of limits that contradict each other, and of the tool in Q330.
+inline constexpr ErrorSet kJudged{1016, 1065};
+/// Errors of Q309 for a centre.
+inline constexpr ErrorSet kCentre{1044, 1045};
+/// Errors of the sphere, the retraction height, the axes, their ranges, and values that cannot be
+/// corrected.
+inline constexpr ErrorSet kKinematics{1072, 1082, 1100, 1101, 1102};
+/// Errors of a tilted plane, of the tool axis, and of impossible tool data.
+inline constexpr ErrorSet kToolMeasuring{1075, 1079, 1109};
+
+}  // namespace fitgauge::probing::errors

@@ -1,6 +1,5 @@
 #include "nc/probing/alignment/rotation.hpp"
 #include "nc/probing/cycles.hpp"
-#include "nc/probing/errors.hpp"
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
@@ -79,7 +78,7 @@ CycleResult<void> two_holes(const CycleContext& context, ProbingMotion& motion) 
   const std::array nominal{Point2{context.number(268), context.number(269)},
                            Point2{context.number(270), context.number(271)}};
   const double height = context.number(261);
-  const auto holes = probe_hole_centres(motion, nominal, height, context.number(260));
+  const auto holes = probe_hole_centres(context, motion, nominal);
   if (!holes) {
     const std::array places{PlannedPlace{Side::Inside, {nominal[0].x, nominal[0].y, height}},
                             PlannedPlace{Side::Inside, {nominal[1].x, nominal[1].y, height}}};
@@ -94,10 +93,10 @@ CycleResult<Point2> stud_centre(const CycleContext& context, ProbingMotion& moti
                                        .centre = nominal,
                                        .diameter = diameter,
                                        .height = height,
-                                       .start_distance = motion.start_distance(context.number(320)),
+                                       .start_distance = motion.start_distance(),
                                        .via_clearance = context.whole(301) == 1});
   const PlannedPlace place{Side::Outside, {nominal.x, nominal.y, height}};
-  const auto contacts = TRY(touch_part(context, motion, touches, context.number(260), place));
+  const auto contacts = TRY(touch_part(context, motion, touches, place));
   const auto circle = TRY(circle_through(contacts, Side::Outside, motion.ball_radius()));
   return circle.centre;
 }

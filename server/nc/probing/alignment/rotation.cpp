@@ -34,13 +34,18 @@ Vec3 turned_rotation(const Frames& frames, const WorkingPlane& plane, const Matr
   return {to_angle(angles.x), to_angle(angles.y), to_angle(angles.z)};
 }
 
-CycleResult<void> reset_basic_rotation(machine::Machine& machine) {
+CycleResult<void> replace_active_preset(machine::Machine& machine,
+                                        const machine::PresetFrame& preset) {
   Frames frames = machine.state().frames;
-  machine::PresetFrame preset = frames.preset();
-  if (preset.basic_rotation_deg == Vec3{}) return {};
-  preset.basic_rotation_deg = {};
   frames.set_preset(preset);
   return lift(machine.set_frames(frames));
+}
+
+CycleResult<void> reset_basic_rotation(machine::Machine& machine) {
+  machine::PresetFrame preset = machine.state().frames.preset();
+  if (preset.basic_rotation_deg == Vec3{}) return {};
+  preset.basic_rotation_deg = {};
+  return replace_active_preset(machine, preset);
 }
 
 CycleResult<void> begin_without_rotation(const CycleContext& context) {
@@ -50,11 +55,11 @@ CycleResult<void> begin_without_rotation(const CycleContext& context) {
       rotation.x == 0 && rotation.y == 0
           ? fmt::format("{:g}", rotation.z)
           : fmt::format("SPA{:+g} SPB{:+g} SPC{:+g}", rotation.x, rotation.y, rotation.z);
-  auto noted =
+  TRY(
       context.host.note(fmt::format("basic rotation of {} degrees is reset by cycle {}: its "
                                     "coordinates and all later coordinates count without it",
-                                    shown, context.descriptor().number));
-  return noted ? reset_basic_rotation(context.machine) : noted;
+                                    shown, context.descriptor().number)));
+  return reset_basic_rotation(context.machine);
 }
 
 CycleResult<ProbingMotion> begin_alignment(const CycleContext& context) {
@@ -68,19 +73,15 @@ CycleResult<ProbingMotion> begin_alignment(const CycleContext& context) {
 CycleResult<void> set_basic_rotation(const CycleContext& context, const Vec3& rotation_deg,
                                      int row) {
   const machine::MachineState& state = context.state();
-  Frames frames = state.frames;
-  machine::PresetFrame active = frames.preset();
-  active.basic_rotation_deg = rotation_deg;
   if (row != 0) {
-    const int number = row < 0 ? state.active_preset : row;
-    machine::Preset preset{.number = number, .comment = {}, .frame = active};
-    if (const machine::Preset* existing = state.presets.find(number)) preset = *existing;
-    preset.frame.basic_rotation_deg = active.basic_rotation_deg;
+    machine::Preset preset = state.preset_row(row < 0 ? state.active_preset : row);
+    preset.frame.basic_rotation_deg = rotation_deg;
     TRY(lift(context.machine.write_preset(preset)));
   }
   if (row > 0) return {};
-  frames.set_preset(active);
-  return lift(context.machine.set_frames(frames));
+  machine::PresetFrame active = state.frames.preset();
+  active.basic_rotation_deg = rotation_deg;
+  return replace_active_preset(context.machine, active);
 }
 
 using machine::Axis;
@@ -106,16 +107,13 @@ CycleResult<void> align_rotary_axis(const CycleContext& context, Axis rotary, do
 CycleResult<void> zero_rotary_axis(const CycleContext& context, Axis rotary, int row) {
   const machine::MachineState& state = context.state();
   const std::size_t offset = index(rotary) - 3;
-  machine::Frames frames = state.frames;
-  machine::PresetFrame active = frames.preset();
-  active.rotary_offsets_deg[offset] = state.nose[rotary];
   if (row == 0) {
-    frames.set_preset(active);
-    return lift(context.machine.set_frames(frames));
+    machine::PresetFrame active = state.frames.preset();
+    active.rotary_offsets_deg[offset] = state.nose[rotary];
+    return replace_active_preset(context.machine, active);
   }
-  machine::Preset preset{.number = row, .comment = {}, .frame = active};
-  if (const machine::Preset* existing = state.presets.find(row)) preset = *existing;
-  preset.frame.rotary_offsets_deg[offset] = active.rotary_offsets_deg[offset];
+  machine::Preset preset = state.preset_row(row);
+  preset.frame.rotary_offsets_deg[offset] = state.nose[rotary];
   return lift(context.machine.write_preset(preset));
 }
 

@@ -23,6 +23,10 @@ inline Vec3 turned_rotation(const machine::Frames& frames, const WorkingPlane& p
   return turned_rotation(frames, plane, machine::Matrix3::rotation({0, 0, 1}, angle_deg));
 }
 
+/// Replaces the active preset in the chain of frames, in no table.
+CycleResult<void> replace_active_preset(machine::Machine& machine,
+                                        const machine::PresetFrame& preset);
+
 /// Resets the basic rotation: measuring and alignment cycles begin without one.
 CycleResult<void> reset_basic_rotation(machine::Machine& machine);
 

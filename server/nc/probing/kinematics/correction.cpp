@@ -48,8 +48,7 @@ CycleResult<void> set_preset(const CycleContext& context, KinematicsProbing& pro
   const auto reference = TRY(probing.measure({}));
   const MachineState& state = context.state();
   const Vec3 centre = on_table(reference, state.kinematics, probing.tool());
-  Preset row{.number = state.active_preset, .comment = {}, .frame = state.frames.preset()};
-  if (const Preset* existing = state.presets.find(row.number)) row = *existing;
+  Preset row = state.preset_row(state.active_preset);
   row.frame.origin = {to_length(centre.x).to_mm(), to_length(centre.y).to_mm(),
                       to_length(centre.z).to_mm()};
   TRY(lift(context.machine.write_preset(row)));

@@ -1,6 +1,5 @@
 #include "base/text.hpp"
 #include "nc/probing/cycles.hpp"
-#include "nc/probing/errors.hpp"
 #include "nc/probing/kinematics/correction.hpp"
 #include "nc/probing/kinematics/log.hpp"
 #include "nc/probing/kinematics/parameters.hpp"

@@ -46,7 +46,6 @@ CycleResult<void> check_reach(const AxisPlan& plan, double backlash,
   return {};
 }
 
-using machine::Axis;
 using machine::Kinematics;
 
 /// Measurement of one axis.

@@ -10,8 +10,6 @@ using namespace fmt::literals;
 
 constexpr double kMmPerInch = 25.4;
 
-using namespace fmt::literals;
-
 std::string beginning(const CycleHost& host, const HtmlLog& log) {
   return fmt::format(templates::page::beginning, "title"_a = log.title,
                      "style"_a = templates::page::style, "heading"_a = log.heading,
@@ -62,10 +60,6 @@ std::string MeasuringLog::finish() && {
   return std::move(text_);
 }
 
-std::string MeasuringLog::file_name(const CycleDescriptor& cycle) {
-  return fmt::format("TCHPR{}.TXT", cycle.number);
-}
-
 void add_values(MeasuringLog& log, std::span<const MeasuredValue> values) {
   log.section("Nominal values");
   for (const auto& value : values) log.length(value.characteristic, value.nominal);
@@ -88,7 +82,7 @@ CycleResult<void> deliver_log(const CycleContext& context, MeasuringLog log) {
   if (where == 0) return {};
   const std::string text = std::move(log).finish();
   if (where == 1) {
-    return context.host.append_log(MeasuringLog::file_name(context.descriptor()), text);
+    return context.host.append_log(fmt::format("TCHPR{}.TXT", context.descriptor().number), text);
   }
   if (context.host.memory().fast_probing.interrupts) context.host.show_and_stop(text);
   return {};

@@ -22,13 +22,9 @@ class MeasuringLog {
   void section(std::string_view title);
   void length(std::string_view label, Length value);
   void number(std::string_view label, double value);  ///< with four decimals
-  void angle(std::string_view label, double degrees) { number(label, degrees); }
 
   /// The closing line and the whole text.
   std::string finish() &&;
-
-  /// `TCHPR421.TXT`
-  static std::string file_name(const CycleDescriptor& cycle);
 
  private:
   void line(std::string_view label, std::string_view value);

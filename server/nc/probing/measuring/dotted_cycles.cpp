@@ -1,14 +1,42 @@
 #include "nc/probing/cycles.hpp"
-#include "nc/probing/dotted_parameters.hpp"
-#include "nc/probing/errors.hpp"
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/measuring/measurement.hpp"
+#include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 
 namespace fitgauge::probing::dotted_cycles {
 
 using machine::FaultKind;
 using namespace parameter;
+
+constexpr CycleParameter pre_position(std::uint8_t part, ParameterId axis) {
+  return in_part(part, {.id = axis,
+                        .meaning = "Position before probing",
+                        .unit = Unit::Length,
+                        .range = {-kLongest, kLongest},
+                        .required = false});
+}
+
+constexpr CycleParameter kWordAxis{.id = ParameterId::WordAxis,
+                                   .meaning = "Probing axis: 0 X, 1 Y, 2 Z",
+                                   .kind = ValueKind::Whole,
+                                   .range = {0, 2}};
+constexpr CycleParameter kWordDirection{.id = ParameterId::WordDirection,
+                                        .meaning = "Probing direction: -1 or +1",
+                                        .kind = ValueKind::Whole,
+                                        .range = {-1, 1}};
+constexpr CycleParameter kWordAngle{.id = ParameterId::WordAngle,
+                                    .meaning = "Probing angle from the axis",
+                                    .unit = Unit::Angle,
+                                    .range = {-360, 360},
+                                    .default_value = 0};
+
+constexpr std::array<CycleOutput, 5> kTouchResults{
+    {{115, "Spindle position X at contact", Unit::Length},
+     {116, "Spindle position Y at contact", Unit::Length},
+     {117, "Spindle position Z at contact", Unit::Length},
+     {118, "Fourth axis at contact", Unit::Angle},
+     {119, "Fifth axis at contact", Unit::Angle}}};
 
 constexpr std::array k0Parameters{result_parameter(0),
                                   in_part(0, kWordAxis),
@@ -20,6 +48,17 @@ constexpr std::array k0Parameters{result_parameter(0),
 constexpr std::array k1Parameters{
     in_part(1, kWordAxis), in_part(1, kWordAngle), pre_position(2, ParameterId::WordX),
     pre_position(2, ParameterId::WordY), pre_position(2, ParameterId::WordZ)};
+
+/// The direction of ANGLE from the named axis towards the next one: X to Y, Y to Z, Z to X, as the
+/// control counts angles in the planes XY, YZ and ZX.
+machine::Vec3 angled_direction(const Arguments& arguments) {
+  const auto axis = static_cast<std::size_t>(arguments.number(ParameterId::WordAxis));
+  const auto [sine, cosine] = machine::sine_cosine(arguments.number(ParameterId::WordAngle));
+  machine::Vec3 direction;
+  direction[axis] = cosine;
+  direction[(axis + 1) % 3] = sine;
+  return direction;
+}
 
 /// Moves the tip in all axes at once to the position in the block, then touches and returns.
 CycleResult<Contact> touch_from_position(const CycleContext& context, const Vec3& direction) {

@@ -1,5 +1,4 @@
 #include "nc/probing/cycles.hpp"
-#include "nc/probing/errors.hpp"
 #include "nc/probing/log/measuring_log.hpp"
 #include "nc/probing/measuring/measurement.hpp"
 #include "nc/probing/parameters.hpp"
@@ -20,7 +19,7 @@ CycleResult<void> measure_angle(const CycleContext& context, ProbingMotion& moti
   context.host.set_q(150, angle, Unit::Angle);
   MeasuringLog log(context.descriptor(), context.host);
   log.section("Actual values");
-  log.angle("Measured angle", angle);
+  log.number("Measured angle", angle);
   log.section("Further results");
   log.length("Measuring height", to_length(context.number(261)));
   TRY(deliver_log(context, std::move(log)));
@@ -86,7 +85,7 @@ Vec3 spatial_angles_of(const TiltedAxes& axes, const WorkingPlane& plane) {
 
 CycleResult<void> measure_plane(const CycleContext& context, ProbingMotion& motion) {
   const Vec3 down{0, 0, -1};
-  const Vec3 back = down * motion.start_distance(context.number(320));
+  const Vec3 back = down * motion.start_distance();
   std::vector<Touch> touches;
   for (const auto& [x, y, z] :
        {std::array{263, 264, 294}, std::array{265, 266, 295}, std::array{296, 297, 298}}) {
@@ -101,7 +100,7 @@ CycleResult<void> measure_plane(const CycleContext& context, ProbingMotion& moti
   log.section("Actual values");
   const auto publish_angle = [&](const CycleOutput& result, double angle) {
     context.host.set_q(result.q, to_angle(angle), Unit::Angle);
-    log.angle(result.meaning, angle);
+    log.number(result.meaning, angle);
   };
   const Vec3& n = axes.normal;
   const Vec3 spatial = spatial_angles_of(axes, motion.plane());

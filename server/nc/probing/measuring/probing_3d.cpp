@@ -2,7 +2,6 @@
 #include "log_templates.hpp"
 #include "nc/machine/tolerance.hpp"
 #include "nc/probing/cycles.hpp"
-#include "nc/probing/errors.hpp"
 #include "nc/probing/log/measuring_log.hpp"
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/object/dimension.hpp"
@@ -20,12 +19,12 @@ using namespace parameter;
 /// axis, in whole nanometres; along the normal, positive is away from the material.
 struct ProbedPoint {
   WorkingPlane plane;
-  Vec3 normal;  ///< of the surface, length 1
-  double distance = 0;   ///< DIST, mm: the length that the log draws the probing direction with
+  Vec3 normal;          ///< of the surface, length 1
+  double distance = 0;  ///< DIST, mm: the length that the log draws the probing direction with
   std::array<Length, 3> nominal{};
   std::array<Length, 3> measured{};
-  Length deviation;                           ///< along the normal
-  std::optional<Limits> limits{};             ///< of that deviation
+  Length deviation;                  ///< along the normal
+  std::optional<Limits> limits{};    ///< of that deviation
   std::optional<Verdict> verdict{};  ///< nothing without limits
 };
 
@@ -212,8 +211,7 @@ CycleResult<ProbedPoint> touch_point(const CycleContext& context,
   TRY(check_tilting_axes(state, motion.plane().probe));
   const Vec3 nominal{context.number(263), context.number(264), context.number(294)};
   const auto contact =
-      TRY(motion.touch({.start = nominal + normal * motion.start_distance(context.number(320)),
-                        .direction = -normal},
+      TRY(motion.touch({.start = nominal + normal * motion.start_distance(), .direction = -normal},
                        context.number(260)));
   const Vec3 surface = contact.surface;
 

@@ -1,5 +1,4 @@
 #include "nc/probing/cycles.hpp"
-#include "nc/probing/errors.hpp"
 #include "nc/probing/measuring/measurement.hpp"
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
@@ -68,18 +67,14 @@ constexpr std::array k423Parameters{coordinate(273, "Nominal centre, main axis")
                                     kStopOnTolerance,
                                     kMonitoringTool};
 
-constexpr std::array<CycleOutput, 11> k423Results{
-    {{151, "Centre, main axis", Unit::Length},
-     {152, "Centre, secondary axis", Unit::Length},
-     {154, "Length, main axis", Unit::Length},
-     {155, "Length, secondary axis", Unit::Length},
-     {161, "Deviation of the centre, main axis", Unit::Length},
-     {162, "Deviation of the centre, secondary axis", Unit::Length},
-     {164, "Deviation of the length, main axis", Unit::Length},
-     {165, "Deviation of the length, secondary axis", Unit::Length},
-     {180, "Good", Unit::None},
-     {181, "Rework", Unit::None},
-     {182, "Reject", Unit::None}}};
+constexpr std::array k423Results =
+    join(join(kRectangleResults,
+              std::array<CycleOutput, 4>{
+                  {{161, "Deviation of the centre, main axis", Unit::Length},
+                   {162, "Deviation of the centre, secondary axis", Unit::Length},
+                   {164, "Deviation of the length, main axis", Unit::Length},
+                   {165, "Deviation of the length, secondary axis", Unit::Length}}}),
+         kStatusResults);
 
 /// Both lengths show one oversize of the tool: their mean corrects it, and the larger one decides
 /// on breakage.
@@ -152,13 +147,11 @@ constexpr std::array k426Parameters{coordinate(263, "1st point, main axis"),
                                     kStopOnTolerance,
                                     kMonitoringTool};
 
-constexpr std::array<CycleOutput, 6> kWidthResults{
-    {{156, "Measured length", Unit::Length},
-     {157, "Position of the centre line", Unit::Length},
-     {166, "Deviation of the length", Unit::Length},
-     {180, "Good", Unit::None},
-     {181, "Rework", Unit::None},
-     {182, "Reject", Unit::None}}};
+constexpr std::array kWidthResults =
+    join(std::array<CycleOutput, 3>{{{156, "Measured length", Unit::Length},
+                                     {157, "Position of the centre line", Unit::Length},
+                                     {166, "Deviation of the length", Unit::Length}}},
+         kStatusResults);
 
 std::size_t measuring_axis(const Arguments& arguments) {
   return static_cast<std::size_t>(arguments.whole(272) - 1);
@@ -198,12 +191,12 @@ CycleResult<void> measure_width(const CycleContext& context, Side side) {
   const auto limits = TRY(size_limits(context, 288, 289));
   auto motion = TRY(begin_measurement(context));
   const bool inside = side == Side::Inside;
-  const auto touches = inside ? slot_touches(context)
-                              : ridge_touches(context, motion.start_distance(context.number(320)));
+  const auto touches =
+      inside ? slot_touches(context) : ridge_touches(context, motion.start_distance());
   const std::size_t axis = measuring_axis(context);
   const Vec3 centre = (touches[0].start + touches[1].start) * 0.5;
-  const auto contacts = TRY(touch_part(context, motion, touches, context.number(260),
-                                       width_place(side, centre, axis, context.number(311))));
+  const auto contacts = TRY(
+      touch_part(context, motion, touches, width_place(side, centre, axis, context.number(311))));
 
   const double first = contacts.front().surface[axis];
   const double second = contacts.back().surface[axis];
@@ -237,12 +230,10 @@ constexpr std::array k427Parameters{coordinate(263, "Point, main axis"),
                                     kReverseTool,
                                     kAngleOfIncidence};
 
-constexpr std::array<CycleOutput, 5> k427Results{
-    {{160, "Measured coordinate", Unit::Length},
-     {168, "Deviation of the coordinate", Unit::Length},
-     {180, "Good", Unit::None},
-     {181, "Rework", Unit::None},
-     {182, "Reject", Unit::None}}};
+constexpr std::array k427Results =
+    join(std::array<CycleOutput, 2>{{{160, "Measured coordinate", Unit::Length},
+                                     {168, "Deviation of the coordinate", Unit::Length}}},
+         kStatusResults);
 
 CycleResult<void> measure_coordinate(const CycleContext& context) {
   const auto limits = TRY(size_limits(context, 288, 289));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "nc/probing/errors.hpp"
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/object/dimension.hpp"
 #include "nc/probing/parameters.hpp"
@@ -55,9 +54,7 @@ class ObjectProbing {
   const machine::Frames& frames() const { return context_.state().frames; }
   const ProbingMotion& motion() const { return motion_; }
   /// Further back by the approach of an undercut (Q1118).
-  double start_distance() const {
-    return motion_.start_distance(context_.number(320)) + context_.number_or(1118, 0);
-  }
+  double start_distance() const { return motion_.start_distance() + context_.number_or(1118, 0); }
   CycleResult<Nominal> size(int parameter) const;
   /// Three coordinates, from that parameter on.
   CycleResult<ObjectPoint> point(int first) const;

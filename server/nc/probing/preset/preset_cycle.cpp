@@ -77,7 +77,7 @@ CycleResult<void> write_preset(const CycleContext& context, const PresetFrame& t
 
 CycleResult<void> write_datum_table(const CycleContext& context, const PresetFrame& turned,
                                     std::span<const Found> points) {
-  machine::Frames frames = context.state().frames;
+  const Frames& frames = context.state().frames;
   const Matrix3 inverse = axes_of(frames, turned).transposed();
   // A shift of cycle 7 counts from the origin of the tilting.
   const Vec3 tilted_at = frames.plane() ? frames.plane()->origin : Vec3{};
@@ -90,9 +90,8 @@ CycleResult<void> write_datum_table(const CycleContext& context, const PresetFra
     }
   }
   TRY(context.host.write_datum(context.whole(305), values));
-  if (turned == frames.preset()) return {};
-  frames.set_preset(turned);
-  return lift(context.machine.set_frames(frames));
+  return turned == frames.preset() ? CycleResult<void>()
+                                   : replace_active_preset(context.machine, turned);
 }
 
 }  // namespace
@@ -136,7 +135,7 @@ CycleResult<void> transfer_datum(const CycleContext& context, const WorkingPlane
 CycleResult<void> correct_preset(const CycleContext& context, const WorkingPlane& plane,
                                  PresetFrame turned, const std::optional<MovedPoint>& moved) {
   const machine::MachineState& state = context.state();
-  Frames frames = state.frames;
+  const Frames& frames = state.frames;
   const PresetFrame before = frames.preset();
   if (moved) {
     Found found = found_in(frames, plane, {.point = moved->measured, .axes = {true, true, true}});
@@ -145,14 +144,12 @@ CycleResult<void> correct_preset(const CycleContext& context, const WorkingPlane
     move_zero(turned, axes_of(frames, turned), found);
   }
   if (turned == before) return {};
-  Preset row{.number = state.active_preset, .comment = {}, .frame = before};
-  if (const Preset* existing = state.presets.find(row.number)) row = *existing;
+  Preset row = state.preset_row(state.active_preset);
   row.frame.origin = tidy(row.frame.origin + turned.origin - before.origin);
   row.frame.basic_rotation_deg = turned.basic_rotation_deg;
   row.frame.rotary_offsets_deg = turned.rotary_offsets_deg;
   TRY(lift(context.machine.write_preset(row)));
-  frames.set_preset(turned);
-  return lift(context.machine.set_frames(frames));
+  return replace_active_preset(context.machine, turned);
 }
 
 DatumPoint plane_datum(const Arguments& arguments, Point2 point) {
@@ -166,8 +163,7 @@ CycleResult<void> finish_preset(const CycleContext& context, ProbingMotion& moti
   std::vector<DatumPoint> points{found};
   if (context.whole(381) == 1) {
     const Vec3 nominal{context.number(382), context.number(383), context.number(384)};
-    const auto surface =
-        TRY(touch_down(motion, nominal, context.number_or(320, 0), context.number(260)));
+    const auto surface = TRY(touch_down(context, motion, nominal));
     points.push_back(
         {.point = surface, .axes = {false, false, true}, .datum = {0, 0, context.number(333)}});
   }

@@ -1,7 +1,7 @@
 #include "nc/probing/alignment/rotation.hpp"
 #include "nc/probing/cycles.hpp"
-#include "nc/probing/errors.hpp"
 #include "nc/probing/measured_value.hpp"
+#include "nc/probing/parameters.hpp"
 #include "nc/probing/preset/preset_cycle.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
 #include "nc/probing/touch/line_probing.hpp"
@@ -33,14 +33,13 @@ constexpr std::array<CycleOutput, 2> kWidthResults{
 CycleResult<void> width_datum(const CycleContext& context, ProbingMotion& motion, Side side) {
   const auto axis = static_cast<std::size_t>(context.whole(272) - 1);
   const Vec3 centre{context.number(321), context.number(322), context.number(261)};
-  auto touches = width_touches(side, centre, axis, context.number(311),
-                               motion.start_distance(context.number(320)));
+  auto touches = width_touches(side, centre, axis, context.number(311), motion.start_distance());
   const bool moves = touches[0].start != touches[1].start;
   if (moves && (side == Side::Outside || context.whole(301) == 1)) {
     touches[1].transit = Transit::ClearanceHeight;
   }
-  const auto contacts = TRY(touch_part(context, motion, touches, context.number(260),
-                                       width_place(side, centre, axis, context.number(311))));
+  const auto contacts = TRY(
+      touch_part(context, motion, touches, width_place(side, centre, axis, context.number(311))));
 
   const double first = contacts.front().surface[axis];
   const double second = contacts.back().surface[axis];
@@ -58,12 +57,6 @@ constexpr std::array k410Parameters =
                     length(323, "Length, main axis"), length(324, "Length, secondary axis"),
                     kMeasuringHeight, kSetUpClearance, kClearanceHeight, kMoveToClearance},
          kPlaneDatum);
-
-constexpr std::array<CycleOutput, 4> kRectangleResults{
-    {{151, "Centre, main axis", Unit::Length},
-     {152, "Centre, secondary axis", Unit::Length},
-     {154, "Length, main axis", Unit::Length},
-     {155, "Length, secondary axis", Unit::Length}}};
 
 CycleResult<void> rectangle_datum(const CycleContext& context, ProbingMotion& motion, Side side) {
   const auto rectangle =
@@ -162,7 +155,7 @@ Touches inside_touches(const Arguments& arguments, double start_distance) {
 }
 
 CycleResult<void> corner_datum(const CycleContext& context, ProbingMotion& motion, bool inside) {
-  const double start_distance = motion.start_distance(context.number(320));
+  const double start_distance = motion.start_distance();
   const auto touches = TRY(inside ? CycleResult<Touches>(inside_touches(context, start_distance))
                                   : outside_touches(context, start_distance));
   const auto contacts = TRY(motion.touch_all(touches, context.number(260)));
@@ -202,8 +195,7 @@ CycleResult<void> four_holes(const CycleContext& context, ProbingMotion& motion)
   for (const int main : {268, 270, 316, 318}) {
     nominal.push_back({context.number(main), context.number(main + 1)});
   }
-  const auto holes =
-      TRY(probe_hole_centres(motion, nominal, context.number(261), context.number(260)));
+  const auto holes = TRY(probe_hole_centres(context, motion, nominal));
   const auto& centre = holes;
   const auto point = TRY(intersection(centre[0], centre[2], centre[1], centre[3]));
   set_length(context.host, 151, point.x);
@@ -236,7 +228,7 @@ constexpr std::array<CycleOutput, 1> kCoordinateResults{
 
 CycleResult<void> in_probe_axis(const CycleContext& context, ProbingMotion& motion) {
   const Vec3 nominal{context.number(263), context.number(264), context.number(294)};
-  const auto surface = TRY(touch_down(motion, nominal, context.number(320), context.number(260)));
+  const auto surface = TRY(touch_down(context, motion, nominal));
   return set_datum_of_axis(context, motion.plane(), surface, 2);
 }
 

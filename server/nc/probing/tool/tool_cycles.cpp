@@ -1,6 +1,4 @@
 #include "nc/probing/cycles.hpp"
-#include "nc/probing/dotted_parameters.hpp"
-#include "nc/probing/errors.hpp"
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/tool/tool_measuring.hpp"

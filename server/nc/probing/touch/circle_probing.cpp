@@ -84,24 +84,24 @@ CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotio
                                        .step = step,
                                        .points = static_cast<int>(context.number_or(423, 4)),
                                        .height = context.number(261),
-                                       .start_distance = motion.start_distance(context.number(320)),
+                                       .start_distance = motion.start_distance(),
                                        .via_clearance = context.whole(301) == 1,
                                        .on_arc = context.number_or(365, 1) == 1});
   const PlannedPlace place{side, {centre.x, centre.y, context.number(261)}, context.number(262)};
-  const auto contacts = TRY(touch_part(context, motion, touches, context.number(260), place));
+  const auto contacts = TRY(touch_part(context, motion, touches, place));
   const auto circle = TRY(circle_through(contacts, side, motion.ball_radius()));
   ProbedCircle probed{circle, circle_form(ball_centres(contacts), circle, context.number(325))};
   probed.form.touch_uncertainty_um = motion.touch_uncertainty_um();
   return probed;
 }
 
-CycleResult<std::vector<Point2>> probe_hole_centres(ProbingMotion& motion,
-                                                    std::span<const Point2> nominal, double height,
-                                                    double clearance_height) {
+CycleResult<std::vector<Point2>> probe_hole_centres(const CycleContext& context,
+                                                    ProbingMotion& motion,
+                                                    std::span<const Point2> nominal) {
   std::vector<Point2> centres;
   for (const Point2& point : nominal) {
-    const auto touches = circle_touches({.centre = point, .height = height});
-    const auto contacts = TRY(motion.touch_all(touches, clearance_height));
+    const auto touches = circle_touches({.centre = point, .height = context.number(261)});
+    const auto contacts = TRY(motion.touch_all(touches, context.number(260)));
     const auto circle = TRY(circle_through(contacts, Side::Inside, motion.ball_radius()));
     centres.push_back(circle.centre);
   }
@@ -115,8 +115,7 @@ CycleResult<ProbedCircle> probe_bolt_circle(const CycleContext& context, Probing
     const auto [sine, cosine] = machine::sine_cosine(context.number(angle));
     nominal.push_back({context.number(273) + radius * cosine, context.number(274) + radius * sine});
   }
-  const auto holes =
-      TRY(probe_hole_centres(motion, nominal, context.number(261), context.number(260)));
+  const auto holes = TRY(probe_hole_centres(context, motion, nominal));
   const auto circle = TRY(fit_circle(holes));
   return ProbedCircle{circle, circle_form(holes, circle, context.number(291))};
 }

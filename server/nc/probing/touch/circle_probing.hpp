@@ -52,12 +52,12 @@ CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotio
                                        Side side, Point2 centre);
 
 /// Returns the centres of holes near the given points. It touches each hole four times from there,
-/// along the axes of the plane at measuring height, and moves between holes at the clearance
-/// height.
+/// along the axes of the plane at measuring height (Q261), and moves between holes at the clearance
+/// height (Q260).
 /// @errors 1014 a hole is wider than DIST reaches, 1081.
-CycleResult<std::vector<Point2>> probe_hole_centres(ProbingMotion& motion,
-                                                    std::span<const Point2> nominal, double height,
-                                                    double clearance_height);
+CycleResult<std::vector<Point2>> probe_hole_centres(const CycleContext& context,
+                                                    ProbingMotion& motion,
+                                                    std::span<const Point2> nominal);
 
 /// The circle through three holes around Q273 and Q274, of the parameters Q262, Q291, Q292, Q293,
 /// Q261, Q260.

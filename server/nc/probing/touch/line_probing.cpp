@@ -5,11 +5,11 @@
 namespace fitgauge::probing {
 namespace {
 
-CycleResult<Vec3> touch(ProbingMotion& motion, const Vec3& nominal, const Vec3& direction,
-                        double q320, double clearance_height) {
+CycleResult<Vec3> touch(const CycleContext& context, ProbingMotion& motion, const Vec3& nominal,
+                        const Vec3& direction) {
   const std::array touches{
-      Touch{.start = nominal - direction * motion.start_distance(q320), .direction = direction}};
-  const auto contacts = TRY(motion.touch_all(touches, clearance_height));
+      Touch{.start = nominal - direction * motion.start_distance(), .direction = direction}};
+  const auto contacts = TRY(motion.touch_all(touches, context.number(260)));
   return contacts.front().surface;
 }
 
@@ -55,7 +55,7 @@ CycleResult<ProbedLine> probe_line(const CycleContext& context, ProbingMotion& m
   }
   Vec3 along;
   along[line.axis] = direction;
-  const Vec3 back = along * motion.start_distance(context.number(320));
+  const Vec3 back = along * motion.start_distance();
   const Transit between = context.whole(301) == 1 ? Transit::ClearanceHeight : Transit::Straight;
   const std::array touches{
       Touch{.start = nominal[0] - back, .direction = along},
@@ -84,14 +84,13 @@ CycleResult<TouchedCoordinate> touch_coordinate(const CycleContext& context,
       .surface = {}};
   Vec3 along;
   along[touched.axis] = direction;
-  touched.surface =
-      TRY(touch(motion, touched.nominal, along, context.number(320), context.number(260)));
+  touched.surface = TRY(touch(context, motion, touched.nominal, along));
   return touched;
 }
 
-CycleResult<Vec3> touch_down(ProbingMotion& motion, const Vec3& nominal, double q320,
-                             double clearance_height) {
-  return touch(motion, nominal, {0, 0, -1}, q320, clearance_height);
+CycleResult<Vec3> touch_down(const CycleContext& context, ProbingMotion& motion,
+                             const Vec3& nominal) {
+  return touch(context, motion, nominal, {0, 0, -1});
 }
 
 CycleResult<Point2> intersection(Point2 a1, Point2 a2, Point2 b1, Point2 b2) {

@@ -45,8 +45,8 @@ struct TouchedCoordinate {
 CycleResult<TouchedCoordinate> touch_coordinate(const CycleContext& context, ProbingMotion& motion);
 
 /// One touch at a point against the probe axis, as in 417 and for Q381.
-CycleResult<Vec3> touch_down(ProbingMotion& motion, const Vec3& nominal, double q320,
-                             double clearance_height);
+CycleResult<Vec3> touch_down(const CycleContext& context, ProbingMotion& motion,
+                             const Vec3& nominal);
 
 struct Corner {
   Point2 point;    ///< intersection of the two edges

@@ -58,8 +58,8 @@ CycleFault with_part(CycleFault fault, const CycleContext& context, const Workin
 
 CycleResult<std::vector<Contact>> touch_part(const CycleContext& context, ProbingMotion& motion,
                                              std::span<const Touch> touches,
-                                             double clearance_height, const PlannedPlace& place) {
-  auto contacts = motion.touch_all(touches, clearance_height);
+                                             const PlannedPlace& place) {
+  auto contacts = motion.touch_all(touches, context.number(260));
   if (contacts) return contacts;
   return with_part(contacts.error(), context, motion.plane(), std::span(&place, 1));
 }

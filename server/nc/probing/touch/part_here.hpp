@@ -19,10 +19,11 @@ struct PlannedPlace {
 CycleFault with_part(CycleFault fault, const CycleContext& context, const WorkingPlane& plane,
                      std::span<const PlannedPlace> places);
 
-/// Touches around a place as ProbingMotion::touch_all. @errors with the part that is there.
+/// Touches around a place as ProbingMotion::touch_all, with the clearance height Q260. @errors with
+/// the part that is there.
 CycleResult<std::vector<Contact>> touch_part(const CycleContext& context, ProbingMotion& motion,
                                              std::span<const Touch> touches,
-                                             double clearance_height, const PlannedPlace& place);
+                                             const PlannedPlace& place);
 
 /// The place of a slot or ridge whose width lies along an axis of the plane.
 PlannedPlace width_place(Side side, const Vec3& centre, std::size_t axis, double width);

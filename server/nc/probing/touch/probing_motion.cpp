@@ -19,11 +19,10 @@ double scale_of(const MachineState& state, machine::Axis main) {
 }  // namespace
 
 ProbingMotion::ProbingMotion(const CycleContext& context, const machine::ProbeSystem& probe)
-    : machine_(context.machine),
-      host_(context.host),
-      plane_(WorkingPlane::across(machine_.state().tool_axis())),
+    : context_(context),
+      plane_(WorkingPlane::across(context.state().tool_axis())),
       probe_(probe),
-      scale_(scale_of(machine_.state(), plane_.main)) {}
+      scale_(scale_of(context.state(), plane_.main)) {}
 
 CycleResult<ProbingMotion> ProbingMotion::begin(const CycleContext& context) {
   using machine::FaultKind;
@@ -83,32 +82,32 @@ CycleResult<void> ProbingMotion::via_clearance_height(const Vec3& start, double 
 
 CycleResult<void> ProbingMotion::arc(const Touch& touch) {
   const Vec3 offset = ball_offset();
-  return lift(machine_.move_arc({.end = plane_.to_input(touch.start) - offset,
-                                 .centre = plane_.to_input(touch.arc_centre) - offset,
-                                 .sweep_deg = touch.arc_sweep,
-                                 .normal = plane_.probe,
-                                 .feed = positioning_feed()}));
+  return lift(context_.machine.move_arc({.end = plane_.to_input(touch.start) - offset,
+                                         .centre = plane_.to_input(touch.arc_centre) - offset,
+                                         .sweep_deg = touch.arc_sweep,
+                                         .normal = plane_.probe,
+                                         .feed = positioning_feed()}));
 }
 
 CycleResult<Contact> ProbingMotion::probe(const Vec3& direction) {
-  const auto contact = machine_.probe({.direction = plane_.to_input(direction),
-                                       .distance = probe_.data.distance,
-                                       .feed = probe_.data.feed,
-                                       .system = CoordinateSystem::Input,
-                                       .retract = std::nullopt,
-                                       .retract_feed = positioning_feed()});
+  auto contact = context_.machine.probe({.direction = plane_.to_input(direction),
+                                         .distance = probe_.data.distance,
+                                         .feed = probe_.data.feed,
+                                         .system = CoordinateSystem::Input,
+                                         .retract = std::nullopt,
+                                         .retract_feed = positioning_feed()});
   if (!contact && contact.error().kind == machine::FaultKind::NoContact) {
     return from_machine(
         make_fault(machine::FaultKind::NoContact,
                    fmt::format("nothing within DIST = {} mm of the start", probe_.data.distance)));
   }
   if (!contact) return from_machine(contact.error());
-  publish_touch(machine_.state(), host_, *contact);
+  publish_touch(context_.state(), context_.host, *contact);
   return Contact{plane_.from_input(contact->ball_centre), plane_.from_input(contact->surface)};
 }
 
 CycleResult<void> ProbingMotion::move_tip(const AxisWords& target) {
-  return lift(machine_.move({target, positioning_feed()}));
+  return lift(context_.machine.move({target, positioning_feed()}));
 }
 
 CycleResult<void> ProbingMotion::move_ball(const Vec3& centre) {
@@ -128,17 +127,17 @@ CycleResult<void> ProbingMotion::move_tip_to_height(double height) {
 }
 
 Feed ProbingMotion::positioning_feed() const {
-  const FastProbing& fast = host_.memory().fast_probing;
+  const FastProbing& fast = context_.host.memory().fast_probing;
   if (fast.machine_rapid) return Feed::rapid();
   if (fast.positioning_feed) return Feed::at(*fast.positioning_feed);
   const bool machine_rapid = probe_.data.prepositioning == machine::PrePositioning::MachineRapid;
   return machine_rapid ? Feed::rapid() : Feed::rapid(probe_.data.rapid);
 }
 
-Vec3 ProbingMotion::tip() const { return plane_.from_input(machine_.position().linear); }
+Vec3 ProbingMotion::tip() const { return plane_.from_input(context_.machine.position().linear); }
 
 Vec3 ProbingMotion::ball_offset() const {
-  return machine_.state().ball_centre() - machine_.position().linear;
+  return context_.state().ball_centre() - context_.machine.position().linear;
 }
 
 CycleResult<void> refuse_mirror_and_scaling(const machine::Frames& frames) {

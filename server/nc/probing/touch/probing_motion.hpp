@@ -2,11 +2,43 @@
 
 #include "nc/machine/machine.hpp"
 #include "nc/probing/touch_probe_cycle.hpp"
-#include "nc/probing/working_plane.hpp"
 
 namespace fitgauge::probing {
 
 using machine::Vec3;
+
+/// The main and the secondary axis of the working plane and the probe axis across it. Cycles
+/// compute in plane coordinates: x along the main axis, y along the secondary axis, z along the
+/// probe axis.
+struct WorkingPlane {
+  machine::Axis main = machine::Axis::X;
+  machine::Axis secondary = machine::Axis::Y;
+  machine::Axis probe = machine::Axis::Z;
+
+  /// Tool axis Z: XY, X: YZ, Y: ZX.
+  static constexpr WorkingPlane across(machine::Axis tool_axis) {
+    using machine::Axis;
+    if (tool_axis == Axis::X) return {Axis::Y, Axis::Z, Axis::X};
+    if (tool_axis == Axis::Y) return {Axis::Z, Axis::X, Axis::Y};
+    return {Axis::X, Axis::Y, Axis::Z};
+  }
+
+  constexpr machine::Vec3 from_input(const machine::Vec3& p) const {
+    return {p[index(main)], p[index(secondary)], p[index(probe)]};
+  }
+  constexpr machine::Vec3 to_input(const machine::Vec3& p) const {
+    machine::Vec3 input;
+    input[index(main)] = p.x;
+    input[index(secondary)] = p.y;
+    input[index(probe)] = p.z;
+    return input;
+  }
+
+  /// The axis a block names by Q272: 1 main, 2 secondary, 3 probe axis.
+  constexpr machine::Axis axis(int q272) const {
+    return q272 == 1 ? main : q272 == 2 ? secondary : probe;
+  }
+};
 
 /// Path of the probe from one touch to the start of the next.
 enum class Transit : std::uint8_t {
@@ -44,9 +76,9 @@ class ProbingMotion {
   /// The effective ball radius in the input system.
   double ball_radius() const { return probe_.radius / scale_; }
   std::optional<double> touch_uncertainty_um() const { return probe_.data.uncertainty_um; }
-  /// Ball centre to nominal contact before a touch: radius + SET_UP + Q320.
-  double start_distance(double q320) const {
-    return (probe_.radius + probe_.data.set_up) / scale_ + q320;
+  /// Ball centre to nominal contact before a touch: radius + SET_UP + Q320, if the cycle has it.
+  double start_distance() const {
+    return (probe_.radius + probe_.data.set_up) / scale_ + context_.number_or(320, 0);
   }
 
   /// Touches in order, then retracts to the clearance height (of the tip, Q260). The first start is
@@ -79,8 +111,7 @@ class ProbingMotion {
   Vec3 tip() const;
   Vec3 ball_offset() const;  ///< tip to ball centre
 
-  machine::Machine& machine_;
-  CycleHost& host_;
+  const CycleContext& context_;
   WorkingPlane plane_;
   machine::ProbeSystem probe_;
   double scale_;  ///< machine mm per input mm

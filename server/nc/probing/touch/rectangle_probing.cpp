@@ -28,7 +28,7 @@ std::array<Touch, 2> width_touches(Side side, const Vec3& centre, std::size_t ax
 CycleResult<Rectangle> probe_rectangle(const CycleContext& context, ProbingMotion& motion,
                                        Side side, Point2 at, const std::array<double, 2>& length) {
   const Vec3 centre{at.x, at.y, context.number(261)};
-  const double distance = motion.start_distance(context.number(320));
+  const double distance = motion.start_distance();
   const auto main = width_touches(side, centre, 0, length[0], distance);
   const auto secondary = width_touches(side, centre, 1, length[1], distance);
   // Around the rectangle, so that no way leads across it.
@@ -40,8 +40,7 @@ CycleResult<Rectangle> probe_rectangle(const CycleContext& context, ProbingMotio
       go_around(touches[i], touches[i - 1], side, centre);
     }
   }
-  const auto contacts =
-      TRY(touch_part(context, motion, touches, context.number(260), {side, centre, 0, length}));
+  const auto contacts = TRY(touch_part(context, motion, touches, {side, centre, 0, length}));
   const double x1 = contacts[0].surface.x;
   const double x2 = contacts[2].surface.x;
   const double y1 = contacts[1].surface.y;
