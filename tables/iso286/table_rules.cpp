@@ -221,24 +221,19 @@ std::vector<Error> table_rules(const TableData& data) {
 
 Result<void> check_custom_column(const CustomColumn& column) {
   std::vector<Error> findings;
+  const auto add = [&](std::string message, std::string where) {
+    findings.push_back({ErrorCode::TableRowsInvalid, std::move(message), std::move(where)});
+  };
   if (!is_class_name(column.name)) {
-    findings.push_back({ErrorCode::TableRowsInvalid,
-                        "the name must be a letter and up to 15 letters, digits or underscores",
-                        "/name"});
+    add("the name must be a letter and up to 15 letters, digits or underscores", "/name");
   } else if (feature_of_name(column.name) != column.feature) {
-    findings.push_back({ErrorCode::TableRowsInvalid,
-                        "the name for holes must begin with an upper-case letter, for shafts with "
-                        "a lower-case letter",
-                        "/name"});
+    add("the name for holes must begin with an upper-case letter, for shafts with a lower-case "
+        "letter",
+        "/name");
   } else if (column.name == "NR" || column.name == "BEREICH") {
-    findings.push_back(
-        {ErrorCode::TableRowsInvalid,
-         "the name must not be NR or BEREICH: these are columns of the control's table", "/name"});
+    add("the name must not be NR or BEREICH: these are columns of the control's table", "/name");
   }
-  if (column.rows.empty()) {
-    findings.push_back(
-        {ErrorCode::TableRowsInvalid, "a custom tolerance class needs at least one row", "/rows"});
-  }
+  if (column.rows.empty()) add("a custom tolerance class needs at least one row", "/rows");
   for (std::size_t i = 0; i < column.rows.size(); ++i) check_row(column, i, findings);
   if (findings.empty()) return {};
   return Error{ErrorCode::TableRowsInvalid,

@@ -21,13 +21,6 @@ constexpr const auto& letters(Feature feature) {
   return feature == Feature::Hole ? kHoleLetters : kShaftLetters;
 }
 
-template <class Enum, std::size_t Count>
-std::optional<Enum> find(const std::array<std::string_view, Count>& texts, std::string_view text) {
-  const auto found = std::find(texts.begin(), texts.end(), text);
-  if (found == texts.end()) return std::nullopt;
-  return static_cast<Enum>(found - texts.begin());
-}
-
 constexpr bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
 constexpr bool is_name_character(char c) { return is_ascii_alphanumeric(c) || c == '_'; }
 
@@ -98,8 +91,8 @@ std::optional<ToleranceClass> class_from_name(std::string_view name) {
   const std::size_t digits = std::min(name.find_first_of("0123456789"), name.size());
   if (digits == 0) return std::nullopt;
   const Feature feature = is_upper(name.front()) ? Feature::Hole : Feature::Shaft;
-  const auto letter = find<DeviationLetter>(letters(feature), name.substr(0, digits));
-  const auto grade = find<StandardToleranceGrade>(kGradeTexts, name.substr(digits));
+  const auto letter = enum_of<DeviationLetter>(name.substr(0, digits), letters(feature));
+  const auto grade = enum_of<StandardToleranceGrade>(name.substr(digits), kGradeTexts);
   if (!letter || !grade) return std::nullopt;
   return ToleranceClass{feature, *letter, *grade};
 }
@@ -107,7 +100,7 @@ std::optional<ToleranceClass> class_from_name(std::string_view name) {
 bool is_class_name(std::string_view name) {
   constexpr std::size_t kLongestName = 16;
   return !name.empty() && name.size() <= kLongestName && is_ascii_letter(name.front()) &&
-         std::all_of(name.begin(), name.end(), is_name_character);
+         std::ranges::all_of(name, is_name_character);
 }
 
 Feature feature_of_name(std::string_view name) {
@@ -120,7 +113,7 @@ Result<Designation> parse_designation(std::string_view text) {
   constexpr std::string_view kRemedy = "is not a nominal size and a tolerance class such as 25 H7";
   std::string_view body = without_diameter_sign(trim(text));
   const bool has_envelope = take_envelope(body);
-  const auto* const letter = std::find_if(body.begin(), body.end(), is_ascii_letter);
+  const auto* const letter = std::ranges::find_if(body, is_ascii_letter);
   const auto split = static_cast<std::size_t>(letter - body.begin());
   const std::string_view name = body.substr(split);
   const std::string_view size_text = trim(body.substr(0, split));

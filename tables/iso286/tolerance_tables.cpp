@@ -95,9 +95,8 @@ std::vector<NominalSizeRange> ToleranceTables::defined_ranges(ClassId id) const 
 
 const CustomRow* ToleranceTables::custom_row(NominalSize size, ClassId id) const {
   const auto& rows = classes_info_[id.index].custom_rows;
-  const auto row = std::find_if(rows.begin(), rows.end(), [&](const CustomRow& candidate) {
-    return candidate.range.contains(size);
-  });
+  const auto row = std::ranges::find_if(
+      rows, [&](const CustomRow& candidate) { return candidate.range.contains(size); });
   return row == rows.end() ? nullptr : &*row;
 }
 
@@ -181,9 +180,8 @@ std::optional<ClassId> ToleranceTables::nearest_defined(NominalSize size, ClassI
 
 Error ToleranceTables::undefined(NominalSize size, ClassId id) const {
   const auto ranges = defined_ranges(id);
-  const bool covered =
-      std::any_of(ranges.begin(), ranges.end(),
-                  [&](const NominalSizeRange& range) { return range.contains(size); });
+  const bool covered = std::ranges::any_of(
+      ranges, [&](const NominalSizeRange& range) { return range.contains(size); });
   std::string message =
       fmt::format("{} is not defined for {} mm: ", class_name(id), format_mm(size.length()));
   if (covered) {
@@ -216,12 +214,7 @@ std::optional<LimitDeviations> deviations_in_range(const ToleranceTables& tables
 }
 
 std::string_view word(FitKind kind) {
-  switch (kind) {
-    case FitKind::Clearance: return "clearance";
-    case FitKind::Transition: return "transition";
-    case FitKind::Interference: break;
-  }
-  return "interference";
+  return word_of(kind, {"clearance", "transition", "interference"});
 }
 
 FitKind Fit::kind() const {

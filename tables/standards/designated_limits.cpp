@@ -69,8 +69,7 @@ Result<DesignatedLimits> general_tolerance(Length nominal, std::string_view tole
                             .tolerance_class = known,
                             .feature_is_open = true,
                             .nominal = nominal,
-                            .deviations = {.upper = *upper, .lower = *lower},
-                            .size_range = {}};
+                            .deviations = {.upper = *upper, .lower = *lower}};
     if (row.up_to) limits.size_range = iso286::NominalSizeRange{*row.over, *row.up_to};
     if (limits.lower_limit() <= Length()) break;
     return limits;

@@ -19,7 +19,7 @@ struct DesignatedLimits {
   bool feature_is_open = false;  ///< also for an inside dimension
   Length nominal;
   iso286::LimitDeviations deviations;
-  std::optional<iso286::NominalSizeRange> size_range;  ///< of general tolerances
+  std::optional<iso286::NominalSizeRange> size_range{};  ///< of general tolerances
 
   Length upper_limit() const { return nominal + deviations.upper; }
   Length lower_limit() const { return nominal + deviations.lower; }

@@ -106,10 +106,7 @@ std::vector<Standard> make_all() {
                        .title = "General tolerances: linear and angular dimensions",
                        .designation = "25 ISO 2768-m",
                        .sources = {"DIN ISO 2768-1 as a manufacturer prints it",
-                                   "GB/T 1804-2000, its equivalent", "a supplier's table"},
-                       .left_out = {},
-                       .tables = {},
-                       .revision = {}},
+                                   "GB/T 1804-2000, its equivalent", "a supplier's table"}},
                       {{"linear", "iso2768_linear"},
                        {"broken_edges", "iso2768_broken_edges"},
                        {"angular", "iso2768_angular"}}));
@@ -119,31 +116,22 @@ std::vector<Standard> make_all() {
                        .designation = "M10-6H",
                        .sources = {"DIN 13-14 as a program has it", "limits of M threads by size",
                                    "the formulas of the standard"},
-                       .left_out = "positions a to d: no second source that is public was found",
-                       .tables = {},
-                       .revision = {}},
+                       .left_out = "positions a to d: no second source that is public was found"},
                       {{"pitch_diameters", "iso965_pitch_diameters"},
                        {"positions", "iso965_positions"},
                        {"diameters", "iso261_diameters"}}));
   made.push_back(make({.name = "din6885-1",
                        .edition = "DIN 6885-1:1968",
                        .title = "Parallel keys and keyways, deep pattern",
-                       .designation = {},
-                       .sources = {"the sheet of August 1968", "catalogues of two manufacturers"},
-                       .left_out = {},
-                       .tables = {},
-                       .revision = {}},
+                       .sources = {"the sheet of August 1968", "catalogues of two manufacturers"}},
                       {{"keyways", "din6885_keyways"}}));
   made.push_back(
       make({.name = "iso492",
             .edition = "ISO 492:2014",
             .title = "Radial bearings but tapered roller bearings: mean diameters",
-            .designation = {},
             .sources = {"JIS B 1514-1:2017", "catalogues of three manufacturers"},
             .left_out =
-                "diameters over 630 mm; class 4 ends at bores of 250 mm and outer rings of 400 mm",
-            .tables = {},
-            .revision = {}},
+                "diameters over 630 mm; class 4 ends at bores of 250 mm and outer rings of 400 mm"},
            {{"bores", "iso492_bores"}, {"outer_rings", "iso492_outer_rings"}}));
   return made;
 }
@@ -163,7 +151,7 @@ std::optional<Length> Row::length(std::string_view item, Member member) const {
 }
 
 Result<Table> read_table(std::string_view name, std::string_view csv) {
-  Table table{.name = name, .rows = {}};
+  Table table{.name = name};
   const std::vector<std::string_view> columns = cells_of(take_field(csv, '\n'));
   for (std::size_t line = 2; !csv.empty(); ++line) {
     const std::vector<std::string_view> cells = cells_of(take_field(csv, '\n'));

@@ -38,7 +38,7 @@ struct Row {
 /// One table of a standard. Its texts are views of its file, which must outlive it.
 struct Table {
   std::string_view name;
-  std::vector<Row> rows;
+  std::vector<Row> rows{};
 };
 
 /// Reads a file of tables/data/standards. The first columns are the range of a row (`over_mm`,
@@ -54,14 +54,14 @@ struct Standard {
   std::string_view name;     ///< `iso2768-1`
   std::string_view edition;  ///< `ISO 2768-1:1989`
   std::string_view title;
-  std::string_view designation;           ///< an example; empty if the standard has no limits
-  std::vector<std::string_view> sources;  ///< the numbers were compared with
+  std::string_view designation{};           ///< an example; empty if the standard has no limits
+  std::vector<std::string_view> sources{};  ///< the numbers were compared with
   std::string_view
-      left_out;  ///< other parts of the standard, and the reason for their absence; may be empty
-  std::vector<Table> tables;
+      left_out{};  ///< other parts of the standard, and the reason for their absence; may be empty
+  std::vector<Table> tables{};
   /// The edition with the first digits of the digest of its numbers, `ISO 2768-1:1989-1f2e3d4c`.
   /// Records name it, so that they can be judged again.
-  std::string revision;
+  std::string revision{};
 
   const Table& table(std::string_view table_name) const;
 };

@@ -51,9 +51,8 @@ std::optional<ThreadClass> class_of(std::string_view text) {
 
 /// Reads the size at the front: digits with a point or a comma.
 Result<Length> take_size(std::string_view& rest, std::string_view whole) {
-  const auto* const stop = std::find_if(rest.begin(), rest.end(), [](char c) {
-    return (c < '0' || c > '9') && c != '.' && c != ',';
-  });
+  const auto* const stop = std::ranges::find_if(
+      rest, [](char c) { return (c < '0' || c > '9') && c != '.' && c != ','; });
   const auto end = static_cast<std::size_t>(stop - rest.begin());
   const auto size = parse_length_mm(rest.substr(0, end), {.decimal_comma = true});
   rest.remove_prefix(end);
@@ -185,8 +184,7 @@ Result<DesignatedLimits> thread_limits(std::string_view designation) {
                           .feature = internal ? iso286::Feature::Hole : iso286::Feature::Shaft,
                           .nominal = pitch_diameter_of(thread),
                           .deviations = internal ? iso286::LimitDeviations{away + tolerance, away}
-                                                 : iso286::LimitDeviations{away, away - tolerance},
-                          .size_range = {}};
+                                                 : iso286::LimitDeviations{away, away - tolerance}};
 }
 
 }  // namespace fitgauge::standards

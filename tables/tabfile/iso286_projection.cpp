@@ -31,7 +31,7 @@ std::vector<ClassId> columns_in_order(const ToleranceTables& tables, Feature fea
   }
   const auto first = columns;
   for (const ClassId id : tables.classes(feature)) {
-    if (std::find(first.begin(), first.end(), id) == first.end()) columns.push_back(id);
+    if (std::ranges::find(first, id) == first.end()) columns.push_back(id);
   }
   return columns;
 }

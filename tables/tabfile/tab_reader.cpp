@@ -170,7 +170,7 @@ class Reader {
       return malformed(kMostLines, "a table has at most a million lines");
     }
     for (std::size_t i = 0; i < lines_.size(); ++i) {
-      if (std::any_of(lines_[i].begin(), lines_[i].end(), is_control_character)) {
+      if (std::ranges::any_of(lines_[i], is_control_character)) {
         return malformed(i, "a control character");
       }
     }
@@ -260,7 +260,7 @@ class Reader {
         return malformed(next_, "column " + name + " is repeated");
       }
       const std::string written = name + columns.back().type;
-      if (std::any_of(written.begin(), written.end(), ends_a_word)) {
+      if (std::ranges::any_of(written, ends_a_word)) {
         return malformed(next_, "name or type of column " + name + " is not a word");
       }
       characters += count_characters(line.substr(counted, at - counted));
