@@ -63,8 +63,7 @@ AttributeStudy::Operator rate(const std::vector<Trials>& parts, const Ratings& r
   std::size_t alike = 0, right = 0, misses = 0, alarms = 0, bad = 0, good = 0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Trials& part = parts[i];
-    const bool is_alike =
-        std::all_of(part.begin(), part.end(), [&](auto each) { return each == part[0]; });
+    const bool is_alike = std::ranges::all_of(part, [&](auto each) { return each == part[0]; });
     alike += is_alike ? 1U : 0U;
     if (references.empty()) continue;
     right += is_alike && part[0] == references[i] ? 1U : 0U;

@@ -14,7 +14,7 @@ using Counts = std::span<const Wide>;
 using Phase = ChartPlan::Phase;
 
 Wide range_of(Counts group) {
-  const auto [low, high] = std::minmax_element(group.begin(), group.end());
+  const auto [low, high] = std::ranges::minmax_element(group);
   return *high - *low;
 }
 
@@ -178,35 +178,31 @@ Chart cusum_chart(const std::vector<double>& points, const Centre& centre, long 
 
 /// The lines of a location chart. For single values with a known centre and a known standard
 /// deviation they are exact decimals: a value on a line is not beyond it.
-class Location {
- public:
-  Location(const ChartPlan& plan, std::size_t group_size, const Centre& centre,
-           long double point_sigma)
-      : zones_{.centre = centre.as_point} {
-    const bool exact = plan.centre && plan.standard_deviation && group_size == 1;
-    for (int i = -3; i <= 3; ++i) {
-      double& zone = i == 0  ? zones_.centre
-                     : i > 0 ? zones_.above.at(static_cast<std::size_t>(i - 1))
-                             : zones_.below.at(static_cast<std::size_t>(-i - 1));
-      long double& line = lines_.at(static_cast<std::size_t>(i + 3));
-      if (exact) {
-        const Exact there = *plan.centre + Exact(i) * *plan.standard_deviation;
-        line = nearest(there);
-        zone = nearest_double(there);
-      } else {
-        line = centre.exactly + i * point_sigma;
-        zone = i == 0 || point_sigma == 0 ? centre.as_point : static_cast<double>(line);
-      }
-    }
-  }
-
-  long double at(int deviations) const { return lines_[static_cast<std::size_t>(deviations + 3)]; }
-  const ZoneLines& zones() const { return zones_; }
-
- private:
-  std::array<long double, 7> lines_{};
-  ZoneLines zones_;
+struct Location {
+  ZoneLines zones;
+  long double lower_limit = 0;
+  long double upper_limit = 0;
 };
+
+Location location_of(const ChartPlan& plan, std::size_t group_size, const Centre& centre,
+                     long double point_sigma) {
+  Location made;
+  const bool exact = plan.centre && plan.standard_deviation && group_size == 1;
+  for (int i = -3; i <= 3; ++i) {
+    double& zone = i == 0  ? made.zones.centre
+                   : i > 0 ? made.zones.above.at(static_cast<std::size_t>(i - 1))
+                           : made.zones.below.at(static_cast<std::size_t>(-i - 1));
+    long double line = centre.exactly + i * point_sigma;
+    zone = i == 0 || point_sigma == 0 ? centre.as_point : static_cast<double>(line);
+    if (exact) {
+      const Exact there = *plan.centre + Exact(i) * *plan.standard_deviation;
+      line = nearest(there);
+      zone = nearest_double(there);
+    }
+    (i == -3 ? made.lower_limit : made.upper_limit) = line;
+  }
+  return made;
+}
 
 /// Rule 1 of a chart that has no zones.
 void find_beyond(const Chart& chart, std::vector<ChartViolation>& violations) {
@@ -258,9 +254,7 @@ Result<ControlCharts> make_charts(const Subgroups& data, const ChartPlan& plan) 
   const Centre centre(plan.centre ? *plan.centre : source.mean());
   std::vector<double> points = source.means();
 
-  ControlCharts made{.charts = {},
-                     .violations = {},
-                     .average_run_length = std::numeric_limits<double>::infinity(),
+  ControlCharts made{.average_run_length = std::numeric_limits<double>::infinity(),
                      .standard_deviation = sigma};
   if (plan.kind == ChartKind::Ewma || plan.kind == ChartKind::Cusum) {
     const bool ewma = plan.kind == ChartKind::Ewma;
@@ -275,16 +269,16 @@ Result<ControlCharts> make_charts(const Subgroups& data, const ChartPlan& plan) 
     return made;
   }
 
-  const Location location(plan, data.size, centre, point_sigma);
-  const auto violations = find_violations(points, location.zones(), plan.rules);
+  const Location location = location_of(plan, data.size, centre, point_sigma);
+  const auto violations = find_violations(points, location.zones, plan.rules);
   made.violations.reserve(violations.size());
   for (const RuleViolation& found : violations) {
     made.violations.push_back({needs_groups ? "xbar" : "i", found.rule, found.index});
   }
   made.charts.push_back({.name = needs_groups ? "xbar" : "i",
                          .centre = centre.exactly,
-                         .lower_limit = location.at(-3),
-                         .upper_limit = location.at(3),
+                         .lower_limit = location.lower_limit,
+                         .upper_limit = location.upper_limit,
                          .points = std::move(points)});
   made.charts.push_back(spread_chart(std::move(spread), sigma));
   if (plan.rules.has(1)) find_beyond(made.charts.back(), made.violations);

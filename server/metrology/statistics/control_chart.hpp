@@ -53,8 +53,8 @@ struct ChartViolation {
 };
 
 struct ControlCharts {
-  std::vector<Chart> charts;  ///< location, then spread
-  std::vector<ChartViolation> violations;
+  std::vector<Chart> charts{};  ///< location, then spread
+  std::vector<ChartViolation> violations{};
   double average_run_length = 0;       ///< of the location chart in control; infinite without rules
   long double standard_deviation = 0;  ///< of single values: from within, or the known one
 };

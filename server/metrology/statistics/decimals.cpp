@@ -27,8 +27,7 @@ Error out_of_range(std::string_view text) {
 
 /// Reads the digits at the front of `rest`.
 std::string_view take_digits(std::string_view& rest) {
-  const auto end =
-      std::find_if(rest.begin(), rest.end(), [](char c) { return c < '0' || c > '9'; });
+  const auto end = std::ranges::find_if(rest, [](char c) { return c < '0' || c > '9'; });
   const std::string_view digits = rest.substr(0, static_cast<std::size_t>(end - rest.begin()));
   rest.remove_prefix(digits.size());
   return digits;
@@ -50,14 +49,6 @@ bool take_exponent(std::string_view& rest, int& exponent) {
   if (negative) exponent = -exponent;
   return true;
 }
-
-}  // namespace
-
-Integer power_of_ten(int exponent) {
-  return boost::multiprecision::pow(Integer(10), static_cast<unsigned>(exponent));
-}
-
-namespace {
 
 template <class Real>
 Real rounded(const Exact& value) {
@@ -85,6 +76,10 @@ Real rounded(const Exact& value) {
 }
 
 }  // namespace
+
+Integer power_of_ten(int exponent) {
+  return boost::multiprecision::pow(Integer(10), static_cast<unsigned>(exponent));
+}
 
 long double nearest(const Exact& value) { return rounded<long double>(value); }
 double nearest_double(const Exact& value) { return rounded<double>(value); }

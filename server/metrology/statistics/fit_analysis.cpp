@@ -27,7 +27,7 @@ constexpr std::array<Preferred, 11> kPreferred = {{
 
 bool is_preferred_with(std::string_view basic, std::string_view other) {
   const std::string word = ' ' + std::string(other) + ' ';
-  return std::any_of(kPreferred.begin(), kPreferred.end(), [&](const Preferred& row) {
+  return std::ranges::any_of(kPreferred, [&](const Preferred& row) {
     return row.basic == basic && row.with.find(word) != std::string_view::npos;
   });
 }
@@ -51,8 +51,7 @@ __extension__ using Square = __int128;
 std::vector<std::size_t> by_size(const std::vector<Length>& sizes) {
   std::vector<std::size_t> order(sizes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return sizes[a] < sizes[b]; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return sizes[i]; });
   return order;
 }
 
@@ -135,7 +134,7 @@ std::vector<FoundFit> find_fits(const iso286::ToleranceTables& tables, iso286::N
                        .most = most});
     }
   }
-  std::sort(found.begin(), found.end(), [](const FoundFit& a, const FoundFit& b) {
+  std::ranges::sort(found, [](const FoundFit& a, const FoundFit& b) {
     if (a.preferred != b.preferred) return a.preferred;
     if (const auto wide = a.most - a.least, other = b.most - b.least; wide != other) {
       return wide > other;
@@ -206,8 +205,7 @@ Result<std::vector<Pair>> pair(const std::vector<Length>& holes, const std::vect
     const std::size_t s = fewer_holes ? assigned[i] : i;
     pairs.push_back({hole[h], shaft[s], clearance(h, s)});
   }
-  std::sort(pairs.begin(), pairs.end(),
-            [](const Pair& a, const Pair& b) { return a.hole < b.hole; });
+  std::ranges::sort(pairs, {}, &Pair::hole);
   return pairs;
 }
 

@@ -297,7 +297,7 @@ long double range_of_means(const Cells& s, const std::vector<std::vector<Wide>>&
     for (const Wide value : group) sum.add(value);
     totals.push_back(sum.value());
   }
-  const auto [low, high] = std::minmax_element(totals.begin(), totals.end());
+  const auto [low, high] = std::ranges::minmax_element(totals);
   return s.in_units(*high - *low, groups.front().size());
 }
 
@@ -305,7 +305,7 @@ GaugeStudy average_and_range(const Cells& s, std::size_t trials) {
   ExactSum ranges;
   const auto& cells = s.groups();
   for (const auto& cell : cells) {
-    const auto [low, high] = std::minmax_element(cell.begin(), cell.end());
+    const auto [low, high] = std::ranges::minmax_element(cell);
     ranges.add(*high - *low);
   }
   GaugeStudy study;

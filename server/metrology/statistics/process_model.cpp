@@ -100,7 +100,7 @@ std::vector<Wide> distances_from_medians(const GroupedCounts& groups) {
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const auto group = groups[i];
     sorted.assign(group.begin(), group.end());
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     const Wide twice = sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2];
     std::size_t left_out = structural_zeros(group.size());
     for (const Wide value : group) {

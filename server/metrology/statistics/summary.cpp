@@ -27,6 +27,18 @@ double p_of(double a) {
   return 1 - std::exp(-13.436 + 101.14 * a - 223.73 * a * a);
 }
 
+/// Above this number the series of Cornish and Fisher is as good as the incomplete gamma function,
+/// whose series in Boost fails beyond 1e10.
+constexpr long double kManyDegreesOfFreedom = 1e7L;
+
+/// Cornish and Fisher 1960: the omitted terms are below 1e-16 of the quantile.
+long double chi_squared_series(long double z, long double n) {
+  const long double z2 = z * z;
+  const long double unit = std::sqrt(2 / n);
+  return n * (1 + z * unit + 2 * (z2 - 1) / (3 * n) + z * (z2 - 7) * unit / (18 * n) -
+              (2 * z2 * (3 * z2 + 7) - 32) / (405 * n * n));
+}
+
 }  // namespace
 
 long double square_root(const Exact& value) {
@@ -88,11 +100,11 @@ Ranking::Ranking(std::span<const Wide> counts) {
     values_.push_back(value);
     ends_.push_back((ends_.empty() ? 0 : ends_.back()) + times);
   };
-  const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
+  const auto [least, most] = std::ranges::minmax_element(counts);
   const Wide first = *least;
   if (counts.size() < kManyToSort || *most - first >= kNarrow) {
     std::vector<Wide> rising(counts.begin(), counts.end());
-    std::sort(rising.begin(), rising.end());
+    std::ranges::sort(rising);
     for (auto begin = rising.begin(), end = begin; begin != rising.end(); begin = end) {
       end = std::find_if(begin, rising.end(), [begin](Wide value) { return value != *begin; });
       add(*begin, static_cast<std::uint32_t>(end - begin));
@@ -138,22 +150,6 @@ Summary summarise(const Decimals& values) {
 }
 
 namespace bm = boost::math;
-
-namespace {
-
-/// Above this number the series of Cornish and Fisher is as good as the incomplete gamma function,
-/// whose series in Boost fails beyond 1e10.
-constexpr long double kManyDegreesOfFreedom = 1e7L;
-
-/// Cornish and Fisher 1960: the omitted terms are below 1e-16 of the quantile.
-long double chi_squared_series(long double z, long double n) {
-  const long double z2 = z * z;
-  const long double unit = std::sqrt(2 / n);
-  return n * (1 + z * unit + 2 * (z2 - 1) / (3 * n) + z * (z2 - 7) * unit / (18 * n) -
-              (2 * z2 * (3 * z2 + 7) - 32) / (405 * n * n));
-}
-
-}  // namespace
 
 long double normal_below(long double z) { return std::erfc(-z / std::sqrt(2.0L)) / 2; }
 

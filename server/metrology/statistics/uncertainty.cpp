@@ -12,11 +12,6 @@ Error impossible() {
           "the correlations contradict each other: their matrix is not positive"};
 }
 
-Error beyond_bound() {
-  return {ErrorCode::FiguresLimit,
-          "the simulation needs more time or memory than one request may use"};
-}
-
 /// Correlations as the lower triangle L of L L' = R, row by row; none when R is not positive.
 std::optional<std::vector<double>> cholesky(const Budget& budget) {
   const std::size_t n = budget.contributions.size();
@@ -113,7 +108,7 @@ double draw(Random& random, const Contribution& c) {
 
 /// The summary of values, which it sorts.
 MonteCarloResult result_of(std::span<double> values, double probability) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   MonteCarloResult made{.trials = values.size()};
   const auto count = static_cast<double>(values.size());
   for (const double x : values) made.mean += x / count;
@@ -256,7 +251,10 @@ Result<MonteCarloResult> simulate(const Budget& budget, const Simulation& simula
     values.resize(begin + static_cast<std::size_t>(least));
     constexpr std::size_t kBetweenLooks = 256;  // trials
     for (std::size_t i = begin; i < values.size(); ++i) {
-      if (i % kBetweenLooks == 0 && Allowance::of_thread().is_spent()) return beyond_bound();
+      if (i % kBetweenLooks == 0 && Allowance::of_thread().is_spent()) {
+        return Error{ErrorCode::FiguresLimit,
+                     "the simulation needs more time or memory than one request may use"};
+      }
       values[i] = draw_value();
       if (std::isfinite(values[i])) continue;
       return Error{
