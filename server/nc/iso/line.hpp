@@ -1,15 +1,8 @@
 #pragma once
 
-#include "base/text.hpp"
+#include "nc/klartext/lexer.hpp"
 
 namespace fitgauge::iso {
-
-/// A line without the `~` that continues its block.
-inline std::string_view without_wrap(std::string_view text) {
-  text = trim(text);
-  while (text.ends_with('~')) text = trim(text.substr(0, text.size() - 1));
-  return text;
-}
 
 /// Whether the block goes on in the next line.
 inline bool wraps(std::string_view line) { return trim(line).ends_with('~'); }
@@ -26,7 +19,7 @@ struct Line {
       if (has_comment) code = text.substr(0, i);
     }
     if (has_comment) comment = text.substr(code.size() + 1);
-    const std::string_view bare = without_wrap(code);
+    const std::string_view bare = klartext::without_wrap(code);
     is_end = bare.ends_with('*');
     if (is_end)
       code = {code.data(), static_cast<std::size_t>(bare.data() + bare.size() - 1 - code.data())};

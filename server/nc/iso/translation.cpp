@@ -153,7 +153,7 @@ class Translator {
   std::size_t cycle(std::size_t begin, std::size_t end) {
     for (bool is_first = true;; is_first = false) {
       const Line line(text(begin, end));
-      const std::string_view code = without_wrap(line.code);
+      const std::string_view code = klartext::without_wrap(line.code);
       const Slice<char> here = place(text(begin, end));  // may be blank
       if (is_first) {
         line_.begin_block(place(trim(text(begin, end))), open(code));

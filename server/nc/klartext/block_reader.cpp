@@ -75,17 +75,8 @@ Slice<Expr> BlockReader::add_operands(std::span<const Expr> operands) {
 }
 
 bool BlockReader::is_string(const Expr& expr) const {
-  if (std::holds_alternative<Text>(expr)) return true;
-  if (const auto* parameter = std::get_if<QRef>(&expr)) return parameter->is_string();
   const auto* index = std::get_if<NodeIndex>(&expr);
-  if (index == nullptr) return false;
-  switch (parts_.nodes[index->value].op) {
-    case Operator::Concat:
-    case Operator::ToChar:
-    case Operator::SubString:
-    case Operator::SystemString: return true;
-    default: return false;
-  }
+  return index != nullptr ? gives_text(parts_.nodes[index->value].op) : is_text(expr);
 }
 
 void BlockReader::enter() {

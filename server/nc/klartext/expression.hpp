@@ -58,6 +58,12 @@ using Expr = std::variant<Absent, double, QRef, Text, NodeIndex>;
 
 inline bool is_absent(const Expr& expr) { return std::holds_alternative<Absent>(expr); }
 
+/// Whether a leaf is a text: in double quotes or a QS parameter.
+inline bool is_text(const Expr& expr) {
+  const auto* parameter = std::get_if<QRef>(&expr);
+  return std::holds_alternative<Text>(expr) || (parameter != nullptr && parameter->is_string());
+}
+
 /// Operations of a Node on its operands, in the order written. Angles are in degrees.
 enum class Operator : std::uint8_t {
   // two numbers; FN 1 to 4, FN 8 and FN 13 are lowered to these too
@@ -110,6 +116,12 @@ enum class Operator : std::uint8_t {
   IsDefined,   ///< one parameter
   IsUndefined  ///< one parameter
 };
+
+/// Whether an operation gives a text.
+constexpr bool gives_text(Operator op) {
+  return op == Operator::Concat || op == Operator::ToChar || op == Operator::SubString ||
+         op == Operator::SystemString;
+}
 
 /// The deepest tree the parser builds; a recursive walk is safe.
 inline constexpr std::uint16_t kDeepestExpression = 200;

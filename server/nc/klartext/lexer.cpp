@@ -267,6 +267,12 @@ std::string_view Lexer::rest_until(char stop) {
   return {begin, static_cast<std::size_t>(last - begin)};
 }
 
+std::string_view without_wrap(std::string_view text) {
+  text = trim(text);
+  while (text.ends_with('~')) text = trim(text.substr(0, text.size() - 1));
+  return text;
+}
+
 std::string unwrapped(std::string_view code) { return joined(code, " "); }
 
 std::string free_text(std::string_view code) { return without_tail(unwrapped(code)); }

@@ -166,6 +166,9 @@ class Lexer {
   std::optional<Failure> failure_;
 };
 
+/// A line without the `~` that continues its block.
+std::string_view without_wrap(std::string_view text);
+
 /// Code without its wraps: each is a blank.
 std::string unwrapped(std::string_view code);
 

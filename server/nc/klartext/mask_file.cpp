@@ -3,11 +3,211 @@
 #include "base/text.hpp"
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/lexer.hpp"
-#include "nc/klartext/mask_format.hpp"
 #include "nc/klartext/source_text.hpp"
 
 namespace fitgauge::klartext {
 namespace {
+
+constexpr int kLargestWidth = 255;
+constexpr int kMostDecimals = 16;
+
+struct KeywordName {
+  std::string_view name;
+  MaskKeyword keyword;
+  bool text = false;
+};
+
+constexpr KeywordName kKeywords[] = {
+    {"CALL_PATH", MaskKeyword::CallPath, true},
+    {"HOUR", MaskKeyword::Hour},
+    {"MIN", MaskKeyword::Minute},
+    {"SEC", MaskKeyword::Second},
+    {"DAY", MaskKeyword::Day},
+    {"MONTH", MaskKeyword::Month},
+    {"STR_MONTH", MaskKeyword::MonthName, true},
+    {"YEAR2", MaskKeyword::Year2},
+    {"YEAR4", MaskKeyword::Year4},
+};
+
+/// A value and whether it is a text.
+struct Argument {
+  MaskValue value{};
+  bool text = false;
+  Slice<char> place{};
+};
+
+/// Reads the text between the quotes: escapes, placeholders and plain characters.
+class FormatReader {
+ public:
+  FormatReader(Lexer& in, MaskFormat& format) : in_(in), format_(format) {}
+
+  /// Reads from the opening quote to the closing one.
+  void read() {
+    const char* opening = in_.at() - 1;
+    while (in_.at() != in_.end() && in_.peek() != '"') {
+      const char c = in_.peek();
+      if (c == '\\') {
+        read_escape();
+      } else if (c == '%') {
+        read_placeholder();
+      } else {
+        take();
+        literal_ += c;
+      }
+    }
+    flush();
+    if (in_.at() == in_.end()) {
+      in_.fail(DiagnosticCode::StringUnterminated, in_.place(opening, in_.end()),
+               "the text has no closing double quote");
+      return;
+    }
+    take();
+  }
+
+ private:
+  char take() {
+    const char c = in_.peek();
+    in_.move_to(in_.at() + 1);
+    return c;
+  }
+
+  /// `\n`, `\"`, `\\`; a backslash before another character is one, as in a path.
+  void read_escape() {
+    take();
+    switch (in_.peek()) {
+      case 'n': literal_ += '\n'; break;
+      case '"': literal_ += '"'; break;
+      case '\\': literal_ += '\\'; break;
+      default: literal_ += '\\'; return;
+    }
+    take();
+  }
+
+  void flush() {
+    if (!literal_.empty()) format_.pieces.emplace_back(std::exchange(literal_, {}));
+  }
+
+  void read_placeholder() {
+    const char* begin = in_.at();
+    take();
+    if (in_.peek() == '%') {
+      literal_ += take();
+      return;
+    }
+    MaskPlaceholder placeholder;
+    read_flags(placeholder);
+    const bool in_range = read_count(placeholder.width, kLargestWidth) &&
+                          (in_.peek() != '.' || (take(), read_decimals(placeholder)));
+    if (!in_range || !read_conversion(placeholder)) {
+      in_.fail(DiagnosticCode::MaskPlaceholderMalformed,
+               in_.place(begin, std::max(in_.at(), begin + 1)),
+               "not a placeholder such as %9.4LF, %D, %S or %RS; a percent sign is written %%");
+      return;
+    }
+    flush();
+    format_.pieces.emplace_back(placeholder);
+  }
+
+  void read_flags(MaskPlaceholder& placeholder) {
+    for (;; take()) {
+      switch (in_.peek()) {
+        case '+': placeholder.plus = true; break;
+        case '-': placeholder.left = true; break;
+        case '0': placeholder.zero = true; break;
+        default: return;
+      }
+    }
+  }
+
+  bool read_count(int& count, int largest) {
+    for (; is_digit(in_.peek()); take()) {
+      count = count * 10 + (in_.peek() - '0');
+      if (count > largest) return false;
+    }
+    return true;
+  }
+
+  bool read_decimals(MaskPlaceholder& placeholder) {
+    placeholder.decimals = 0;
+    return read_count(placeholder.decimals, kMostDecimals);
+  }
+
+  bool read_conversion(MaskPlaceholder& placeholder) {
+    if (in_.at() == in_.end()) return false;
+    const char first = ascii_upper(in_.peek());
+    const char second = ascii_upper(in_.peek(1));
+    if (first == 'R' && second == 'S') {
+      take();
+      take();
+      placeholder.conversion = MaskConversion::RawString;
+      return true;
+    }
+    if (first == 'L' && (second == 'F' || second == 'D' || second == 'I')) take();
+    switch (ascii_upper(take())) {
+      case 'F': placeholder.conversion = MaskConversion::Float; return true;
+      case 'D':
+      case 'I': placeholder.conversion = MaskConversion::Integer; return true;
+      case 'S': placeholder.conversion = MaskConversion::String; return true;
+      case 'C': placeholder.conversion = MaskConversion::Character; return true;
+      default: return false;
+    }
+  }
+
+  Lexer& in_;
+  MaskFormat& format_;
+  std::string literal_;
+};
+
+Argument parse_argument(Lexer& in) {
+  in.skip_blanks();
+  const char* begin = in.at();
+  for (const KeywordName& row : kKeywords) {
+    if (in.accept_word(row.name)) return {row.keyword, row.text, in.place(begin, in.at())};
+  }
+  if (!in.at_parameter()) {
+    in.fail_expected("a Q parameter or a keyword such as HOUR");
+    return {};
+  }
+  const QRef parameter = in.parameter();
+  return {parameter, parameter.is_string(), in.place(begin, in.at())};
+}
+
+bool shows_text(MaskConversion conversion) {
+  return conversion == MaskConversion::String || conversion == MaskConversion::RawString;
+}
+
+void bind(Lexer& in, MaskPlaceholder& placeholder, const Argument& argument) {
+  if (shows_text(placeholder.conversion) != argument.text) {
+    in.fail(DiagnosticCode::MaskValueType, argument.place,
+            argument.text ? "a text needs %S or %RS" : "a number needs %F or %D");
+  }
+  placeholder.value = argument.value;
+}
+
+/// Reads `"text %9.4LF", Q1`: the text with its placeholders and the value of each.
+/// @param unused the place of the first value that no placeholder shows.
+MaskFormat parse_mask_format(Lexer& in, std::optional<Slice<char>>& unused) {
+  MaskFormat format;
+  in.expect('"');
+  FormatReader(in, format).read();
+  for (MaskPiece& piece : format.pieces) {
+    auto* placeholder = std::get_if<MaskPlaceholder>(&piece);
+    if (placeholder == nullptr) continue;
+    if (!in.accept(',')) {
+      in.fail(DiagnosticCode::MaskValueMissing, in.here(),
+              "the text has more placeholders than values: name one for each");
+      break;
+    }
+    bind(in, *placeholder, parse_argument(in));
+  }
+  while (in.accept(',')) {
+    // A comma may end the line.
+    if (in.at_end()) break;
+    const Argument argument = parse_argument(in);
+    if (!unused) unused = argument.place;
+  }
+  return format;
+}
 
 constexpr std::uint32_t kMostKilobytes = 1'000'000;
 

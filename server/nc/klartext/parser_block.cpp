@@ -120,15 +120,18 @@ SpellingHint similar_keyword(std::string_view name, std::string_view next) {
 
 }  // namespace
 
-void refuse_word(BlockReader& in, std::string_view first) {
+Statement expected(BlockReader& in, std::string_view what) {
+  in.fail_expected(what);
+  return Empty{};
+}
+
+Statement refuse_word(BlockReader& in, std::string_view first) {
   const std::string_view word = in.letters();
-  if (word.empty()) {
-    in.fail_expected(fmt::format("a word behind {}", first));
-    return;
-  }
+  if (word.empty()) return expected(in, fmt::format("a word behind {}", first));
   const char* begin = in.at();
   in.move_to(begin + word.size());
   in.refuse(begin, fmt::format("{} {}", first, excerpt(ascii_upper(word))));
+  return Empty{};
 }
 
 std::vector<std::string_view> block_keywords() {

@@ -10,12 +10,6 @@ namespace {
 
 constexpr std::uint32_t kLargestCycle = 9999;
 
-std::string_view without_wrap(const char* begin, const char* end) {
-  std::string_view line = trim({begin, static_cast<std::size_t>(end - begin)});
-  while (line.ends_with('~')) line = trim(line.substr(0, line.size() - 1));
-  return line;
-}
-
 /// Reads the free text after the cycle's number: up to the first parameter, the comment or the line
 /// end.
 Text parse_dialog(BlockReader& in) {
@@ -23,7 +17,7 @@ Text parse_dialog(BlockReader& in) {
   const char* at = begin;
   while (at != in.end() && *at != ';' && *at != '\n' && !at_cycle_parameter(at, in.end())) ++at;
   in.move_to(at);
-  return in.add_text(without_wrap(begin, at));
+  return in.add_text(without_wrap({begin, static_cast<std::size_t>(at - begin)}));
 }
 
 /// Adds the comment from `;` to the end of its physical line to `comment`; the lexer moves behind
@@ -32,7 +26,7 @@ void parse_line_comment(BlockReader& in, Text& comment) {
   const char* begin = in.at() + 1;
   const char* end = std::find(begin, in.end(), '\n');
   in.move_to(end);
-  const std::string_view text = without_wrap(begin, end);
+  const std::string_view text = without_wrap({begin, static_cast<std::size_t>(end - begin)});
   if (comment.empty()) {
     comment = in.add_text(text);
   } else if (!text.empty()) {
@@ -147,8 +141,7 @@ bool at_cycle_parameter(const char* at, const char* end) {
 Statement parse_cycl(BlockReader& in) {
   if (in.accept_word("CALL")) return parse_cycle_call(in);
   if (in.accept_joined("DEF")) return parse_cycle(in, CycleFamily::CyclDef);
-  in.fail_expected("CALL or DEF");
-  return Empty{};
+  return expected(in, "CALL or DEF");
 }
 
 Statement parse_global(BlockReader& in) {

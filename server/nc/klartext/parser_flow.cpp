@@ -111,18 +111,15 @@ Statement parse_call(BlockReader& in) {
   if (in.accept_word("PGM")) return read_form<CallProgram>(in);
   if (in.accept_word("SELECTED")) {
     if (in.accept_word("PGM")) return CallSelectedProgram{};
-    refuse_word(in, "CALL SELECTED");
-    return Empty{};
+    return refuse_word(in, "CALL SELECTED");
   }
-  refuse_word(in, "CALL");
-  return Empty{};
+  return refuse_word(in, "CALL");
 }
 
 Statement parse_select(BlockReader& in) {
   if (in.accept_word("PGM")) return read_form<SelectProgram>(in);
   if (in.accept_word("TABLE")) return read_form<SelectTable>(in);
-  refuse_word(in, "SEL");
-  return Empty{};
+  return refuse_word(in, "SEL");
 }
 
 }  // namespace fitgauge::klartext

@@ -114,10 +114,7 @@ Statement parse_assignment(BlockReader& in) {
 }
 
 Statement parse_declare(BlockReader& in) {
-  if (!in.accept_word("STRING")) {
-    refuse_word(in, "DECLARE");
-    return Empty{};
-  }
+  if (!in.accept_word("STRING")) return refuse_word(in, "DECLARE");
   in.skip_blanks();
   const char* begin = in.at();
   const QRef target = in.parameter();

@@ -80,9 +80,8 @@ Statement parse_second_word(BlockReader& in, std::string_view first) {
       return parse_motion(in, static_cast<Path>(i));
     }
   }
-  in.fail_expected(first == "DEP" ? "LT, LN, CT, LCT or PLCT"
-                                  : "LT, LN, CT, LCT, PLT, PLN, PCT or PLCT");
-  return Empty{};
+  return expected(
+      in, first == "DEP" ? "LT, LN, CT, LCT or PLCT" : "LT, LN, CT, LCT, PLT, PLN, PCT or PLCT");
 }
 
 constexpr std::uint32_t kMostElements = 99;
@@ -216,8 +215,7 @@ Statement parse_pattern(BlockReader& in) {
 Statement parse_tool(BlockReader& in) {
   if (in.accept_joined("CALL")) return parse_tool_call(in);
   if (in.accept_joined("DEF")) return parse_tool_definition(in);
-  in.fail_expected("CALL or DEF");
-  return Empty{};
+  return expected(in, "CALL or DEF");
 }
 
 }  // namespace fitgauge::klartext

@@ -75,8 +75,10 @@ Statement parse_plane(BlockReader& in);
 Statement parse_function(BlockReader& in);
 
 // parser_block.cpp
-/// Whether `first` and the next word are a feature that only real controls have.
-void refuse_word(BlockReader& in, std::string_view first);
+/// Fails: the block has none of the words that `what` names.
+Statement expected(BlockReader& in, std::string_view what);
+/// Refuses `first` and the next word, a feature that only real controls have.
+Statement refuse_word(BlockReader& in, std::string_view first);
 /// The statement of a block that is not empty.
 Statement parse_statement(BlockReader& in);
 

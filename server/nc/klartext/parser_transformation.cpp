@@ -99,10 +99,7 @@ Statement parse_mode(BlockReader& in) {
   in.skip_blanks();
   const char* begin = in.at();
   const auto found = accept_name<OperatingMode>(in, kOperatingModes);
-  if (!found) {
-    in.fail_expected("MILL, TURN or GRIND");
-    return Empty{};
-  }
+  if (!found) return expected(in, "MILL, TURN or GRIND");
   if (*found != OperatingMode::Mill) {
     in.refuse(begin,
               fmt::format("FUNCTION MODE {}", kOperatingModes[static_cast<std::size_t>(*found)]));
@@ -187,14 +184,12 @@ Statement parse_trans(BlockReader& in) {
   if (in.accept_word("SCALE")) {
     return parse_trans_words(in, Transformation::Scale, LetterSet(Letter::Scl));
   }
-  in.fail_expected("DATUM, MIRROR, ROTATION or SCALE");
-  return Empty{};
+  return expected(in, "DATUM, MIRROR, ROTATION or SCALE");
 }
 
 Statement parse_plane(BlockReader& in) {
   if (const auto kind = accept_name<PlaneKind>(in, kPlaneKinds)) return parse_plane_kind(in, *kind);
-  in.fail_expected("SPATIAL, PROJECTED, EULER, VECTOR, POINTS, RELATIV, AXIAL or RESET");
-  return Empty{};
+  return expected(in, "SPATIAL, PROJECTED, EULER, VECTOR, POINTS, RELATIV, AXIAL or RESET");
 }
 
 Statement parse_function(BlockReader& in) {
@@ -203,11 +198,9 @@ Statement parse_function(BlockReader& in) {
   if (in.accept_word("DWELL")) return read_form<Dwell>(in);
   if (in.accept_word("RESET")) {
     if (in.accept_word("TCPM")) return FunctionTcpm{.active = false};
-    refuse_word(in, "FUNCTION RESET");
-    return Empty{};
+    return refuse_word(in, "FUNCTION RESET");
   }
-  refuse_word(in, "FUNCTION");
-  return Empty{};
+  return refuse_word(in, "FUNCTION");
 }
 
 }  // namespace fitgauge::klartext

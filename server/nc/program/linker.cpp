@@ -26,11 +26,6 @@ constexpr std::size_t kMostReferences = 1000;
 
 bool is_dynamic(const Label& label) { return std::holds_alternative<QRef>(label); }
 
-bool is_string(const Expr& expr) {
-  if (const auto* parameter = std::get_if<QRef>(&expr)) return parameter->is_string();
-  return std::holds_alternative<Text>(expr);
-}
-
 /// Turns the blocks of one program into code, in one pass, and fills in the jumps afterwards.
 class Linker {
  public:
@@ -177,7 +172,7 @@ class Linker {
     const klartext::Node& node = program_.node(node_index);
     const auto operands = program_.operands(node_index);
     Instruction instruction{.op = Op::JumpWhen, .a = node_index.value};
-    if (std::none_of(operands.begin(), operands.end(), is_string)) {
+    if (std::ranges::none_of(operands, klartext::is_text)) {
       instruction.op = jump_of(node.op);
       instruction.a = writer_.value(operands[0]);
       instruction.b = operands.size() > 1 ? writer_.value(operands[1]) : instruction.a;

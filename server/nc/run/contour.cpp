@@ -26,7 +26,7 @@ Vec3 end_of(const Element& element) { return moved({element.from, {}}, element.t
 void turn_into_plane(Element& line, const WorkingPlane& plane) {
   if (line.curve.is_arc() || line.plane == plane) return;
   line.plane = plane;
-  line.curve = {plane.project(line.from), plane.project(end_of(line)), std::nullopt, 0};
+  line.curve = {plane.project(line.from), plane.project(end_of(line))};
 }
 
 /// The direction of travel at the end of an element, if it moves.
@@ -205,7 +205,7 @@ NcResult<void> Contour::approach(machine::Machine& machine, const Element& next)
   to_auxiliary.feed = approach.before;
   set_plane_target(to_auxiliary, auxiliary);
   TRY(move(machine, to_auxiliary));
-  Curve to_first{auxiliary, first, std::nullopt, 0};
+  Curve to_first{auxiliary, first};
   if (is_arc) {
     to_first.centre = centre;
     to_first.sweep_deg = sweep(auxiliary, first, centre, turn > 0);

@@ -165,7 +165,7 @@ NcResult<void> CutterPath::join(machine::Machine& machine, const Element& next) 
     begin = *std::exchange(begun_, std::nullopt);
   } else if (!last_) {
     // After a block of another kind the tool is square to the previous element.
-    Element across{next.plane, {corner, begin, std::nullopt, 0}, next.from, {}, next.feed};
+    Element across{next.plane, {corner, begin}, next.from, {}, next.feed};
     set_plane_target(across, begin);
     TRY(move(machine, across));
   } else if (is_entry_) {

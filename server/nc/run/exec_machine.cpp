@@ -9,13 +9,10 @@ namespace {
 
 using klartext::Expr;
 using klartext::Letter;
-using klartext::QRef;
 
 /// The tool table's number of a tool given by number or name.
 NcResult<int> tool_number(Channel& channel, const Expr& tool) {
-  const auto* parameter = std::get_if<QRef>(&tool);
-  if (std::holds_alternative<klartext::Text>(tool) ||
-      (parameter != nullptr && parameter->is_string())) {
+  if (is_text(tool)) {
     const auto name = TRY(text(channel, tool));
     const machine::Tool* found = channel.machine().state().tools.find(name);
     if (found == nullptr) return nc_error(1092, fmt::format("tool \"{}\"", name));

@@ -17,11 +17,7 @@ constexpr std::string_view kPrintFile = "%FN15RUN.A";
 
 /// Prints a number with its sign, a text unchanged.
 NcResult<std::string> printed(Channel& channel, const klartext::Expr& item) {
-  const auto* parameter = std::get_if<klartext::QRef>(&item);
-  if (std::holds_alternative<klartext::Text>(item) ||
-      (parameter != nullptr && parameter->is_string())) {
-    return text(channel, item);
-  }
+  if (is_text(item)) return text(channel, item);
   const auto value = TRY(number(channel, item));
   // Four decimals without trailing zeros, as controls print them.
   constexpr int kDecimals = 4;

@@ -17,16 +17,6 @@ NcResult<void> preset(QParameters& parameters, const std::vector<ParameterValue>
   return {};
 }
 
-RunStatus status_of(NcErrorKind kind) {
-  switch (kind) {
-    case NcErrorKind::Stop: return RunStatus::Stopped;
-    case NcErrorKind::Limit: return RunStatus::LimitExceeded;
-    case NcErrorKind::Cancelled: return RunStatus::Cancelled;
-    case NcErrorKind::Error: break;
-  }
-  return RunStatus::Failed;
-}
-
 /// Ends a run, even after an error: writes the collected output.
 NcResult<void> close_files(Channel& channel) {
   auto printed = channel.printer.close();
@@ -61,7 +51,9 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
   RunResult result;
   result.blocks_executed = ending.blocks_executed;
   if (ending.error) {
-    result.status = status_of(ending.error->kind);
+    constexpr RunStatus kStatuses[] = {RunStatus::Failed, RunStatus::Stopped,
+                                       RunStatus::LimitExceeded, RunStatus::Cancelled};
+    result.status = kStatuses[static_cast<std::size_t>(ending.error->kind)];
     std::vector<klartext::DiagnosticNote> origins;
     if (ending.error->kind == NcErrorKind::Error) {
       origins = origins_of(channel.chain(), *ending.error);

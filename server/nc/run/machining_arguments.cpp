@@ -12,12 +12,6 @@ using klartext::Letter;
 using klartext::Word;
 using probing::ParameterId;
 
-bool is_text(const klartext::Expr& expr) {
-  const auto* parameter = std::get_if<klartext::QRef>(&expr);
-  return std::holds_alternative<klartext::Text>(expr) ||
-         (parameter != nullptr && parameter->is_string());
-}
-
 /// FU is a feed a turn of the spindle, FZ a tooth.
 NcResult<double> number_value(Channel& channel, const klartext::CycleParameter& written) {
   switch (written.kind) {

@@ -11,7 +11,7 @@ using machine::degrees;
 struct Offset {
   Vec2 point;      ///< of a line
   Vec2 direction;  ///< of a line
-  std::optional<Vec2> centre;
+  std::optional<Vec2> centre{};
   double radius = 0;
 };
 
@@ -19,7 +19,7 @@ struct Offset {
 std::optional<Offset> offset(const Curve& curve, Vec2 corner, double side) {
   if (!curve.is_arc()) {
     const Vec2 direction = unit(curve.end - curve.start);
-    return Offset{corner + left_of(direction) * side, direction, std::nullopt, 0};
+    return Offset{corner + left_of(direction) * side, direction};
   }
   const double radius = norm(corner - *curve.centre) + (curve.is_left_turn() ? -side : side);
   if (radius <= tolerance::kSamePoint) return std::nullopt;
@@ -138,7 +138,7 @@ std::optional<Curve> arc_of_radius(Vec2 start, Vec2 end, double r, bool left_tur
 Curve tangential_arc(Vec2 start, Vec2 direction, Vec2 end) {
   const Vec2 chord = end - start;
   const double offset = dot(chord, left_of(direction));
-  if (std::abs(offset) < tolerance::kSamePoint) return {start, end, std::nullopt, 0};
+  if (std::abs(offset) < tolerance::kSamePoint) return {start, end};
   const double radius = dot(chord, chord) / (2 * offset);  // signed: positive to the left
   const Vec2 centre = start + left_of(direction) * radius;
   return {start, end, centre, sweep(start, end, centre, radius > 0)};
@@ -207,7 +207,7 @@ std::optional<Curve> chamfer(const Curve& before, const Curve& after, double sid
   if (side > norm(before.end - before.start) || side > norm(after.end - after.start)) {
     return std::nullopt;
   }
-  return Curve{before.end - *arriving * side, before.end + *leaving * side, std::nullopt, 0};
+  return Curve{before.end - *arriving * side, before.end + *leaving * side};
 }
 
 std::optional<Vec2> tangent_point(Vec2 from, Vec2 centre, double radius, bool left_turn) {

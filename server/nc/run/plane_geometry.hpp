@@ -49,7 +49,7 @@ struct WorkingPlane {
 struct Curve {
   Vec2 start;
   Vec2 end;
-  std::optional<Vec2> centre;  ///< nothing: a line
+  std::optional<Vec2> centre{};  ///< nothing: a line
   double sweep_deg = 0;
 
   bool is_arc() const { return centre.has_value(); }

@@ -200,7 +200,7 @@ class Positioning {
     }
     const auto end = TRY(end_point());
     if (contour().lengthening() != 0 && motion_.path != Path::Ln) return lengthened_line(end);
-    auto made = TRY(element({start_, end, std::nullopt, 0}));
+    auto made = TRY(element({start_, end}));
     made.shift = TRY(shift_of_surface());
     const bool is_pieced = channel_.turns_along_vector && channel_.machine().state().modes.tcpm;
     return is_pieced ? add_along_vector(made) : move_along(made);
@@ -252,7 +252,7 @@ class Positioning {
 
   /// R+ and R-: lengthens or shortens the move of each named axis of the plane by the tool radius.
   NcResult<void> lengthened_line(Vec2 end) {
-    auto made = TRY(element({start_, end, std::nullopt, 0}));
+    auto made = TRY(element({start_, end}));
     const double by = contour().lengthening() * CutterPath::radius(channel_.machine());
     for (const std::size_t axis : {plane_.first, plane_.second}) {
       auto& value = made.target.values[axis];
@@ -328,7 +328,7 @@ class Positioning {
   NcResult<void> approach() {
     const auto end = TRY(end_point());
     const auto before = contour().last_feed;
-    auto to_start = TRY(element({start_, end, std::nullopt, 0}));
+    auto to_start = TRY(element({start_, end}));
     set_plane_target(to_start, end);
     // F of APPR LCT applies to its whole way, of the others to the second part.
     const bool is_whole = !before || cartesian() == Path::ApprLct;
@@ -357,9 +357,8 @@ class Positioning {
     const Vec2 centre = from + left_of(direction) * (left_side * radius);
     const bool left = left_side > 0;
     switch (motion_.path) {
-      case Path::DepLt: return leave({from, from + direction * length, std::nullopt, 0});
-      case Path::DepLn:
-        return leave({from, from + left_of(direction) * (left_side * length), std::nullopt, 0});
+      case Path::DepLt: return leave({from, from + direction * length});
+      case Path::DepLn: return leave({from, from + left_of(direction) * (left_side * length)});
       case Path::DepCt: {
         const double angle = std::copysign(words_.cca.value_or(0), left_side * radius);
         return leave({from, centre + turned(from - centre, angle), centre, angle});
@@ -371,7 +370,7 @@ class Positioning {
     const auto met = tangent_point(end, centre, radius, !left);
     if (!met) return nc_error(1023, "DEP LCT ends inside its circle");
     TRY(leave({from, *met, centre, sweep(from, *met, centre, left)}));
-    return add({*met, end, std::nullopt, 0});
+    return add({*met, end});
   }
 
   /// A move only in the working plane.

@@ -87,16 +87,7 @@ NcResult<void> RunLog::note(std::string text, const Place& place) {
 
 void RunLog::finish(const NcError& error, const Place& place,
                     std::vector<klartext::DiagnosticNote> origins) {
-  const auto kind = [&] {
-    switch (error.kind) {
-      case NcErrorKind::Stop: return MessageKind::Stop;
-      case NcErrorKind::Limit: return MessageKind::Limit;
-      case NcErrorKind::Cancelled: return MessageKind::Cancelled;
-      case NcErrorKind::Error: break;
-    }
-    return MessageKind::Error;
-  }();
-  add(kind, error.number, error.text, place);
+  add(static_cast<MessageKind>(error.kind), error.number, error.text, place);
   messages_.back().origins = std::move(origins);
 }
 

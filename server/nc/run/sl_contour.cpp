@@ -119,7 +119,7 @@ NcResult<SlContour> read_contour(Channel& channel, const klartext::Label& label)
     const Vec2 first = curves.front().start;
     const Vec2 last = curves.back().end;
     if (norm(first - last) > tolerance::kNanometre) {
-      curves.push_back({last, first, std::nullopt, 0});
+      curves.push_back({last, first});
     }
   }
   const double enclosed = area(curves);

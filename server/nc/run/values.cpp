@@ -15,13 +15,8 @@ using klartext::Text;
 namespace {
 
 bool is_string(const Channel& channel, const Expr& expr) {
-  if (const auto* parameter = std::get_if<QRef>(&expr)) return parameter->is_string();
-  if (const auto* node = std::get_if<NodeIndex>(&expr)) {
-    const Operator op = channel.program().node(*node).op;
-    return op == Operator::Concat || op == Operator::ToChar || op == Operator::SubString ||
-           op == Operator::SystemString;
-  }
-  return std::holds_alternative<Text>(expr);
+  const auto* node = std::get_if<NodeIndex>(&expr);
+  return node != nullptr ? gives_text(channel.program().node(*node).op) : is_text(expr);
 }
 
 NcResult<double> arithmetic(Channel& channel, NodeIndex index) {
