@@ -97,8 +97,7 @@ constexpr Code kAnyCycle{0, Cycle, {}};
 const Code* find_code(unsigned number) {
   const bool is_contour = number >= kFirstContourCycle && number <= kLastContourCycle;
   if (is_contour || number >= kFirstCycle) return &kAnyCycle;
-  const auto* found = std::find_if(std::begin(kCodes), std::end(kCodes),
-                                   [=](const Code& row) { return row.number == number; });
+  const auto* found = std::ranges::find(kCodes, number, &Code::number);
   return found != std::end(kCodes) ? found : nullptr;
 }
 
@@ -114,8 +113,7 @@ std::string function_pattern(unsigned number) {
     return fmt::format("IF $1 {} $2 GOTO LBL $3",
                        klartext::kComparisons[number - kFirstComparison].name);
   }
-  const auto* row = std::find_if(std::begin(kFunctions), std::end(kFunctions),
-                                 [=](const Function& known) { return known.number == number; });
+  const auto* row = std::ranges::find(kFunctions, number, &Function::number);
   return row != std::end(kFunctions) ? std::string(row->pattern) : std::string();
 }
 

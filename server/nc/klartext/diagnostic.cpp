@@ -46,9 +46,7 @@ std::string_view word(Severity severity) {
 std::string_view id(DiagnosticCode code) { return kIds[static_cast<std::size_t>(code)]; }
 
 bool contains_error(const std::vector<Diagnostic>& diagnostics) {
-  return std::any_of(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& diagnostic) {
-    return diagnostic.severity == Severity::Error;
-  });
+  return std::ranges::count(diagnostics, Severity::Error, &Diagnostic::severity) > 0;
 }
 
 std::string render(const Diagnostic& diagnostic) {

@@ -6,35 +6,25 @@
 namespace fitgauge::klartext {
 namespace {
 
-struct CompensationName {
-  char second;
-  RadiusCompensation compensation;
-};
-
-constexpr CompensationName kCompensationLetters[] = {{'0', RadiusCompensation::R0},
-                                                     {'L', RadiusCompensation::Rl},
-                                                     {'R', RadiusCompensation::Rr},
-                                                     {'+', RadiusCompensation::RPlus},
-                                                     {'-', RadiusCompensation::RMinus}};
+/// After the R, in the order of RadiusCompensation from R0.
+constexpr std::string_view kCompensationLetters = "0LR+-";
 
 /// `R0`, `RL`, `RR`, `R+`, `R-` if no letter or digit follows; `R0.5` and `R+20` are radii.
 /// @param has_radius the block may have a radius R, so `R+ 20` is a radius.
 bool parse_compensation(BlockReader& in, Motion& motion, bool has_radius) {
   const char c = ascii_upper(in.peek(1));
   const char behind = in.peek(2);
-  const auto* found = std::find_if(std::begin(kCompensationLetters), std::end(kCompensationLetters),
-                                   [c](const CompensationName& row) { return row.second == c; });
-  if (found == std::end(kCompensationLetters) || is_ascii_letter(behind) || is_digit(behind) ||
+  const std::size_t found = kCompensationLetters.find(c);
+  if (found == kCompensationLetters.npos || is_ascii_letter(behind) || is_digit(behind) ||
       behind == '.' || behind == ',' || (has_radius && (c == '+' || c == '-'))) {
     return false;
   }
-  const RadiusCompensation compensation = found->compensation;
   if (motion.compensation != RadiusCompensation::Unchanged) {
     in.fail(DiagnosticCode::WordRepeated, in.place(in.at(), in.at() + 2),
             "the radius compensation is repeated in this block");
     return true;
   }
-  motion.compensation = compensation;
+  motion.compensation = static_cast<RadiusCompensation>(found + 1);
   in.move_to(in.at() + 2);
   return true;
 }

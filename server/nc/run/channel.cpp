@@ -35,16 +35,14 @@ NcResult<void> Channel::programmed_stop(std::string reason) {
 
 NcResult<ControlPath> Channel::resolve(std::string_view written) const {
   auto path = ControlPath::resolve(written, linked().path());
-  if (path.has_error()) return from_error(path.error());
-  return *std::move(path);
+  return path ? NcResult<ControlPath>(*std::move(path)) : from_error(path.error());
 }
 
 NcResult<ControlPath> Channel::resolve_printed(std::string_view written) const {
   const bool is_name = written.find_first_of("\\/:") == std::string_view::npos;
   if (!is_name || !options.print_folder) return resolve(written);
   auto path = ControlPath::resolve(written, *options.print_folder);
-  if (path.has_error()) return from_error(path.error());
-  return *std::move(path);
+  return path ? NcResult<ControlPath>(*std::move(path)) : from_error(path.error());
 }
 
 NcResult<ControlPath> Channel::resolve_program(std::string_view written) const {
@@ -67,9 +65,8 @@ NcResult<std::shared_ptr<const LinkedProgram>> Channel::load_program(const Contr
   TRY(budget.check());
   const auto& program = linked->runnable(options.keeps_unreadable);
   if (program == nullptr) {
-    const auto first =
-        std::find_if(linked->diagnostics.begin(), linked->diagnostics.end(),
-                     [](const auto& found) { return found.severity == klartext::Severity::Error; });
+    const auto first = std::ranges::find(linked->diagnostics, klartext::Severity::Error,
+                                         &klartext::Diagnostic::severity);
     return nc_error(fmt::format("program {} has errors, the first in line {}: {}", path.text(),
                                 first->range.begin.line, first->message));
   }

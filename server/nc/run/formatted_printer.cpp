@@ -7,15 +7,6 @@
 namespace fitgauge::interpreter {
 namespace {
 
-std::string joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) {
-    text += line;
-    text += '\n';
-  }
-  return text;
-}
-
 using klartext::MaskConversion;
 using klartext::MaskKeyword;
 using klartext::MaskPlaceholder;
@@ -139,9 +130,8 @@ NcResult<std::shared_ptr<const klartext::MaskFile>> FormattedPrinter::mask(
     const auto file = files_.find(path);
     if (!file) return nc_error(fmt::format("mask {} does not exist", path.text()));
     auto parsed = klartext::parse_mask(*file->bytes, file->path.text());
-    const auto error =
-        std::find_if(parsed.diagnostics.begin(), parsed.diagnostics.end(),
-                     [](const auto& found) { return found.severity == klartext::Severity::Error; });
+    const auto error = std::ranges::find(parsed.diagnostics, klartext::Severity::Error,
+                                         &klartext::Diagnostic::severity);
     if (error != parsed.diagnostics.end()) {
       return nc_error(
           fmt::format("mask {} line {}: {}", path.text(), error->range.begin.line, error->message));
@@ -157,7 +147,8 @@ NcResult<void> FormattedPrinter::print(const PrintedMask& printed, const Control
   if (printed.truncate) output = {path, {}, false, {}};
   output.append = output.append || printed.append;
   if (printed.most_bytes) output.most_bytes = printed.most_bytes;
-  std::string text = joined(printed.lines);
+  std::string text;
+  for (const std::string& line : printed.lines) text.append(line).append("\n");
   TRY(budget_.charge(text.size()));
   output.text += text;
   if (!printed.close) return {};

@@ -89,7 +89,7 @@ NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words) {
   bool stops = false;
   bool ends = false;
   bool calls_cycle = channel.active_cycle.after_every_block && words.names_axes();
-  const bool stands = std::any_of(words.m.begin(), words.m.end(), [](const MCall& call) {
+  const bool stands = std::ranges::any_of(words.m, [](const MCall& call) {
     return call.number <= 2 || call.number == 30 || call.number == 140;
   });
   if (stands) TRY(channel.contour.finish(channel.machine()));

@@ -1,5 +1,6 @@
 #include "nc/run/motion_words.hpp"
 
+#include "nc/klartext/parser_words.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/linked_program.hpp"
 #include "nc/run/channel.hpp"
@@ -116,29 +117,20 @@ NcResult<void> read_word(Channel& channel, const Word& word, MotionWords& out) {
     case Letter::Cca: return read_number(channel, word, 1, out.cca);
     case Letter::Chamfer: return read_number(channel, word, unit, out.chamfer);
     case Letter::M: return read_m(channel, word, out.m);
-    case Letter::F:
-    case Letter::FMax:
-    case Letter::FAuto:
-    case Letter::Fu:
-    case Letter::Fz:
-    case Letter::Ft:
-    case Letter::FMaxT: {
-      out.feed = TRY(read_feed(channel, word));
-      return {};
-    }
-    default: return {};  // normal vectors of LN
+    default: break;  // feeds, and normal vectors of LN
   }
+  if (klartext::kFeeds.contains(word.letter)) out.feed = TRY(read_feed(channel, word));
+  return {};
 }
 
 }  // namespace
 
 bool MotionWords::names_axes() const {
-  return pr || pa ||
-         std::any_of(axes.begin(), axes.end(), [](const auto& axis) { return axis.has_value(); });
+  return pr || pa || std::ranges::any_of(axes, [](const auto& axis) { return axis.has_value(); });
 }
 
 bool MotionWords::has_m(int number) const {
-  return std::any_of(m.begin(), m.end(), [&](const MCall& call) { return call.number == number; });
+  return std::ranges::count(m, number, &MCall::number) > 0;
 }
 
 NcResult<machine::Axis> machine_axis(Letter letter) {

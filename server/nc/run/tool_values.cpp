@@ -54,8 +54,7 @@ constexpr WholeColumn kWholeColumns[] = {
 
 template <class Columns>
 auto column(const Columns& columns, std::int64_t nr) {
-  const auto* it = std::find_if(std::begin(columns), std::end(columns),
-                                [nr](const auto& entry) { return entry.nr == nr; });
+  const auto* it = std::ranges::find_if(columns, [nr](const auto& each) { return each.nr == nr; });
   return it == std::end(columns) ? nullptr : it;
 }
 

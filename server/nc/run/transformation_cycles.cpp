@@ -12,8 +12,7 @@ using machine::Vec3;
 using Words = std::span<const Word>;
 
 const Word* find(Words words, Letter letter) {
-  const auto it = std::find_if(words.begin(), words.end(),
-                               [&](const Word& word) { return word.letter == letter; });
+  const auto it = std::ranges::find(words, letter, &Word::letter);
   return it == words.end() ? nullptr : &*it;
 }
 
