@@ -1,11 +1,6 @@
 #include "cli/commands.hpp"
 
-#include <CLI/CLI.hpp>
-
-#include "cli/limits_commands.hpp"
 #include "cli/registration.hpp"
-#include "cli/stored_commands.hpp"
-#include "cli/watch_command.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -153,76 +148,22 @@ std::string zsh_completion(const CLI::App& app) {
   return out + "compdef _fitgauge fitgauge\n";
 }
 
-void add_stored(CLI::App& app, Action& chosen, const StoredKind& kind) {
-  CLI::App* stored = app.add_subcommand(std::string(kind.command), std::string(kind.help));
-  stored->require_subcommand(1);
-  const Word name{"name", fmt::format("Name of {}", kind.what)};
-  add_words(*stored, "ls", fmt::format("List the names of the {}", kind.command), chosen, {}, 0,
-            [&kind](const Context& context, const Words&) { return run_stored_ls(context, kind); });
-  add_words(*stored, "put", fmt::format("Store {}: {} put m3 m3.json", kind.what, kind.command),
-            chosen, {name, {"file", "JSON file; - is standard input"}}, 2,
-            [&kind](const Context& context, const Words& words) {
-              return run_stored_put(context, kind, words[0], words[1]);
-            });
-  add_words(*stored, "get", fmt::format("Print {}, or write it to a file", kind.what), chosen,
-            {name, {"file", "File to write (default: standard output)"}}, 1,
-            [&kind](const Context& context, const Words& words) {
-              return run_stored_get(context, kind, words[0], words[1]);
-            });
-  add_words(*stored, "rm", fmt::format("Delete {}", kind.what), chosen, {name}, 1,
-            [&kind](const Context& context, const Words& words) {
-              return run_stored_rm(context, kind, words[0]);
-            });
-}
-
-void add_tables(CLI::App& app, Action& chosen) {
-  CLI::App* tables = app.add_subcommand("tables", "Tolerance tables and custom tolerance classes");
-  tables->require_subcommand(1);
-  const auto options = std::make_shared<TableOptions>();
-  CLI::App* out = add_command(*tables, "export", "Write a tolerance table: tables export hole",
-                              chosen, options, run_tables_export);
-  out->add_option("feature", options->feature, "Table: hole or shaft")
-      ->required()
-      ->check(CLI::IsMember({"hole", "shaft"}));
-  out->add_option("--format", options->format,
-                  "Format: csv, json, or tab for the control (default: csv)")
-      ->check(CLI::IsMember({"csv", "json", "tab"}));
-  out->add_option("--classes", options->classes, "Only these tolerance classes, such as H7,JS7");
-  out->add_option("--revision", options->revision,
-                  "Table revision to export (default: the current one)");
-  out->add_option("--output,-o", options->output, "File to write (default: standard output)");
-  const auto classes = [](const std::string& feature) {
-    return StoredKind{
-        "", "", "", feature == "hole" ? "/v1/tables/hole/classes" : "/v1/tables/shaft/classes", ""};
-  };
-  const auto of_feature = CLI::IsMember({"hole", "shaft"});
-  const Word feature{"feature", "Table: hole or shaft"};
-  const Word name{"name", "Name of the custom tolerance class"};
-  add_words(*tables, "set", "Store a custom tolerance class: tables set hole PRESS press.json",
-            chosen, {feature, name, {"file", "JSON file; - is standard input"}}, 3,
-            [classes](const Context& context, const Words& words) {
-              return run_stored_put(context, classes(words[0]), words[1], words[2]);
-            })
-      ->get_option("feature")
-      ->check(of_feature);
-  add_words(*tables, "reset", "Delete a custom tolerance class: the standard applies again", chosen,
-            {feature, name}, 2,
-            [classes](const Context& context, const Words& words) {
-              return run_stored_rm(context, classes(words[0]), words[1]);
-            })
-      ->get_option("feature")
-      ->check(of_feature);
-}
-
-void add_watch(CLI::App& app, Action& chosen) {
-  const auto options = std::make_shared<WatchOptions>();
-  CLI::App* watch = add_command(app, "watch", "Print measurements and ends of runs as they happen",
-                                chosen, options, run_watch);
-  watch
-      ->add_option("--source", options->source, "Source: gauge, simulation or all (default: gauge)")
-      ->check(CLI::IsMember({"gauge", "simulation", "all"}));
-  watch->add_option("--after", options->after, "Start after the event with this id");
-  watch->add_option("--count", options->count, "Stop after this number of events");
+/// `fitgauge version`: of this program, and of the service with the revision of its tables.
+Outcome<ExitCode> run_version(const Context& context) {
+  if (!context.json) context.print("fitgauge {}\n", FITGAUGE_VERSION);
+  const auto answer = TRY(context.send({.target = "/openapi.json"}));
+  const auto document = TRY(context.document_of(answer));
+  const std::string_view service = document.member("info").text_of("version");
+  if (context.json) {
+    context.print_document(JsonObject()
+                               .add("fitgauge", FITGAUGE_VERSION)
+                               .add("fitgauged", service)
+                               .add("server", context.client.url())
+                               .text());
+  } else {
+    context.print("fitgauged {} at {}\n", service, context.client.url());
+  }
+  return ExitCode::Good;
 }
 
 void add_about(CLI::App& app, Action& chosen) {
@@ -255,13 +196,14 @@ std::string option_name(std::string_view field) {
 }
 
 void add_commands(CLI::App& app, Action& chosen) {
-  add_gauging(app, chosen);
-  add_records(app, chosen);
-  add_programs(app, chosen);
-  for (const StoredKind& kind : kStoredKinds) add_stored(app, chosen, kind);
-  add_tables(app, chosen);
-  add_watch(app, chosen);
-  add_about(app, chosen);
+  for (const auto add :
+       {add_limits, add_gauge, add_import, add_statistics, add_records, add_figures, add_plans})
+    add(app, chosen);
+  CLI::App* nc = app.add_subcommand("nc", "NC programs and the control's files");
+  nc->require_subcommand(1);
+  for (const auto add : {add_lsp, add_programs, add_nc}) add(*nc, chosen);
+  for (const auto add : {add_runs, add_control, add_replay, add_stored, add_watch, add_about})
+    add(app, chosen);
   name_values(app);
 }
 

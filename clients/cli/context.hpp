@@ -29,10 +29,16 @@ struct Context {
   /// Prints a remark for the user.
   void note(std::string_view text) const { fmt::print(stderr, "fitgauge: {}\n", text); }
 
+  /// Sends a request once. @errors also those of a response that is no success.
+  Outcome<Answer> send(const Request& request) const {
+    return expect_ok(client.send(request), client.url());
+  }
   /// Sends a request until it is answered, as send_until_answered(), with a remark at each wait.
+  /// @errors as send()
   Outcome<Answer> persist(const Request& request) const {
-    return send_until_answered(client, request, Backoff(retry_budget),
-                               [this](const Failure& f, auto) { note(f.message); });
+    return expect_ok(send_until_answered(client, request, Backoff(retry_budget),
+                                         [this](const Failure& f, auto) { note(f.message); }),
+                     client.url());
   }
   /// Posts JSON in the same way, under a new idempotency key.
   Outcome<Answer> post_once(std::string target, std::string body) const {
@@ -41,6 +47,10 @@ struct Context {
                     .headers = {"Idempotency-Key: " + new_idempotency_key()},
                     .content_type = "application/json",
                     .body = std::move(body)});
+  }
+  /// Returns the document of a response. @errors NoAnswer if it is not JSON.
+  Outcome<JsonValue> document_of(const Answer& answer) const {
+    return read_document(answer, client.url());
   }
 };
 
@@ -53,7 +63,7 @@ Outcome<ExitCode> show(const Context& context, const Outcome<Answer>& answer, co
     context.print_document(answer->body);
     return ExitCode::Good;
   }
-  const auto document = TRY(read_document(*answer, context.client.url()));
+  const auto document = TRY(context.document_of(*answer));
   print(document);
   return ExitCode::Good;
 }

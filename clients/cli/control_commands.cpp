@@ -1,15 +1,16 @@
-#include "cli/control_commands.hpp"
-
 #include "base/clock.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"
-#include "cli/json_object.hpp"
 #include "cli/local_files.hpp"
+#include "cli/registration.hpp"
 #include "plant/lsv2/link/link_client.hpp"
 #include "plant/lsv2/link/messages.hpp"
 
 namespace fitgauge::cli {
 namespace {
+
+// `fitgauge control …`: a HEIDENHAIN control over LSV-2. Each command names the control, HOST or
+// HOST:PORT, and logs in with the least rights it needs. No other command sends to a control.
 
 using control_link::ControlError;
 using control_link::LinkClient;
@@ -227,11 +228,10 @@ Outcome<ProgramState> wait_for_end(LinkClient& control) {
   }
 }
 
-}  // namespace
-
-Outcome<ExitCode> run_control_ls(const Context& context, const std::string& address,
-                                 const std::string& directory) {
-  auto control = TRY(connect(address, {"FILE"}));
+/// `control ls ADDRESS [DIRECTORY]`
+Outcome<ExitCode> run_control_ls(const Context& context, const Words& words) {
+  const std::string& directory = words[1];
+  auto control = TRY(connect(words[0], {"FILE"}));
   const std::string path = directory.empty() ? "TNC:\\" : control_path(directory);
   const auto entries = control.list(path, kMostEntries);
   if (!entries) return failure_of(path, entries.error());
@@ -257,6 +257,14 @@ Outcome<ExitCode> run_control_ls(const Context& context, const std::string& addr
   return ExitCode::Good;
 }
 
+struct ControlGetOptions {
+  std::string address;
+  std::string path;
+  std::string file{};  ///< its name here when empty; `-` is standard output
+  bool force = false;  ///< replace a file that is there
+};
+
+/// `control get ADDRESS PATH [FILE]`: bytes as they are on the control.
 Outcome<ExitCode> run_control_get(const Context&, const ControlGetOptions& options) {
   const std::string path = control_path(options.path);
   const std::string file = options.file.empty() ? std::string(base_name(path)) : options.file;
@@ -268,6 +276,13 @@ Outcome<ExitCode> run_control_get(const Context&, const ControlGetOptions& optio
   return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
 }
 
+struct ControlPutOptions {
+  std::vector<std::string> words;  ///< ADDRESS FILE… DESTINATION
+  bool force = false;              ///< replace a file that is on the control
+};
+
+/// `control put`: programs and tables as lines, other files as bytes.
+/// @errors Refused if the control has a file of that name and `force` is not set.
 Outcome<ExitCode> run_control_put(const Context& context, const ControlPutOptions& options) {
   const std::string& destination = options.words.back();
   const std::vector<std::string> files(options.words.begin() + 1, options.words.end() - 1);
@@ -291,8 +306,10 @@ Outcome<ExitCode> run_control_put(const Context& context, const ControlPutOption
   return ExitCode::Good;
 }
 
-Outcome<ExitCode> run_control_run(const Context& context, const std::string& address,
-                                  const std::string& program) {
+/// `control run ADDRESS PROGRAM`: starts a program of a virtual control and waits for its end.
+/// @errors Refused at a real control: LSV-2 has no NC start. ProgramFailed.
+Outcome<ExitCode> run_control_run(const Context& context, const Words& words) {
+  const std::string& address = words[0];
   auto control = TRY(connect(address, {}));
   const auto identity = control.identity();
   if (!identity) return failure_of(identity.error());
@@ -304,7 +321,7 @@ Outcome<ExitCode> run_control_run(const Context& context, const std::string& add
             identity->control, address)};
   }
   TRY(log_in(control, {"FILE", "DNC", "PLCDEBUG"}));
-  const std::string path = control_path(program);
+  const std::string path = control_path(words[1]);
   const auto started = control.tell(control_link::WriteMachineParameter{
       .name = std::string(control_link::kRunParameter), .value = path});
   if (!started) return failure_of(path, started.error());
@@ -325,8 +342,9 @@ Outcome<ExitCode> run_control_run(const Context& context, const std::string& add
   return ExitCode::Good;
 }
 
-Outcome<ExitCode> run_control_state(const Context& context, const std::string& address) {
-  auto control = TRY(connect(address, {"DNC"}));
+/// `control state ADDRESS`
+Outcome<ExitCode> run_control_state(const Context& context, const Words& words) {
+  auto control = TRY(connect(words[0], {"DNC"}));
   const auto machine = TRY(read_state(control));
   if (context.json) {
     context.print_document(state_json(machine));
@@ -334,6 +352,33 @@ Outcome<ExitCode> run_control_state(const Context& context, const std::string& a
     print_state(context, machine);
   }
   return ExitCode::Good;
+}
+
+}  // namespace
+
+void add_control(CLI::App& app, Action& chosen) {
+  CLI::App* control = app.add_subcommand("control", "A HEIDENHAIN control over LSV-2");
+  control->require_subcommand(1);
+  const Word address{"address", "The control: HOST or HOST:PORT"};
+  add_words(*control, "ls", "List a folder of a control", chosen,
+            {address, {"directory", "Folder on the control (default: TNC:)"}}, 1, run_control_ls);
+  const auto [get, got] = add_command(*control, "get", "Fetch a file: control get tnc TNC:/log.txt",
+                                      chosen, run_control_get);
+  get->add_option("address", got->address, address.help)->required();
+  get->add_option("path", got->path, "Path on the control")->required();
+  get->add_option("file", got->file, "Local file (default: the same name); - is standard output");
+  get->add_flag("--force", got->force, "Replace an existing file");
+  const auto [send, put] = add_command(
+      *control, "put", "Send files: control put tnc part.h TNC:/nc_prog/", chosen, run_control_put);
+  send->add_option("paths", put->words,
+                   "Address of the control, local files, then the path or folder/ on the control")
+      ->required()
+      ->expected(3, CLI::detail::expected_max_vector_size);
+  send->add_flag("--force", put->force, "Replace an existing file on the control");
+  add_words(*control, "run", "Run a program of a virtual control", chosen,
+            {address, {"program", "Path of the program on the control"}}, 2, run_control_run);
+  add_words(*control, "state", "Print mode, program, axes and errors of a control", chosen,
+            {address}, 1, run_control_state);
 }
 
 }  // namespace fitgauge::cli

@@ -2,18 +2,17 @@
 
 #include <fcntl.h>
 #include <termios.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <regex>
 
 #include "base/clock.hpp"
+#include "base/folder.hpp"
 #include "base/length.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"
-#include "cli/context.hpp"
-#include "cli/http_client.hpp"
-#include "cli/problem.hpp"
+#include "cli/registration.hpp"
+#include "record/measurement_row_reader.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -24,9 +23,6 @@ class SerialPort {
  public:
   /// Opens the port and discards its old input. @errors LocalFile, Usage for an unknown baud rate.
   static Outcome<SerialPort> open(const std::string& path, unsigned baud);
-  ~SerialPort();
-  SerialPort(SerialPort&& other) noexcept;
-  SerialPort& operator=(SerialPort&&) = delete;
 
   struct Line {
     std::string text;   ///< without its end mark; a long one is cut
@@ -36,10 +32,10 @@ class SerialPort {
   Outcome<Line> next();
 
  private:
-  SerialPort(std::string path, int descriptor);
+  SerialPort(std::string path, Descriptor port) : path_(std::move(path)), port_(std::move(port)) {}
 
   std::string path_;
-  int descriptor_;
+  Descriptor port_;
   std::string received_;  ///< from the beginning of a line on
   bool overlong_ = false;
   std::chrono::steady_clock::time_point opened_ = std::chrono::steady_clock::now();
@@ -64,24 +60,8 @@ Failure failed(const std::string& path, std::string_view what) {
           fmt::format("{}: {}: {}", path, what, std::system_category().message(errno))};
 }
 
-SerialPort::SerialPort(std::string path, int descriptor)
-    : path_(std::move(path)), descriptor_(descriptor) {}
-
-SerialPort::SerialPort(SerialPort&& other) noexcept
-    : path_(std::move(other.path_)),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      received_(std::move(other.received_)),
-      overlong_(other.overlong_),
-      opened_(other.opened_),
-      first_(other.first_) {}
-
-SerialPort::~SerialPort() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
 Outcome<SerialPort> SerialPort::open(const std::string& path, unsigned baud) {
-  const auto speed = std::find_if(kSpeeds.begin(), kSpeeds.end(),
-                                  [baud](const auto& each) { return each.first == baud; });
+  const auto speed = std::ranges::find(kSpeeds, baud, &std::pair<unsigned, speed_t>::first);
   if (speed == kSpeeds.end()) {
     return Failure{
         ExitCode::Usage,
@@ -90,9 +70,9 @@ Outcome<SerialPort> SerialPort::open(const std::string& path, unsigned baud) {
             baud)};
   }
   // Without O_NONBLOCK an open waits for a carrier, which a gauge does not send.
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-  if (descriptor < 0) return failed(path, "cannot be opened");
-  SerialPort port(path, descriptor);
+  Descriptor port(::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (!port.is_open()) return failed(path, "cannot be opened");
+  const int descriptor = port.get();
   termios settings{};
   if (tcgetattr(descriptor, &settings) != 0) return failed(path, "is not a serial port");
   cfmakeraw(&settings);
@@ -106,7 +86,7 @@ Outcome<SerialPort> SerialPort::open(const std::string& path, unsigned baud) {
       fcntl(descriptor, F_SETFL, O_RDONLY) != 0) {
     return failed(path, "cannot be set up");
   }
-  return port;
+  return SerialPort(path, std::move(port));
 }
 
 Outcome<SerialPort::Line> SerialPort::next() {
@@ -125,7 +105,7 @@ Outcome<SerialPort::Line> SerialPort::next() {
       overlong_ = true;
     }
     std::array<char, 256> bytes{};
-    const ssize_t count = ::read(descriptor_, bytes.data(), bytes.size());
+    const ssize_t count = ::read(port_.get(), bytes.data(), bytes.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return failed(path_, "is gone");
     if (count == 0) return Failure{ExitCode::LocalFile, path_ + ": is gone"};
@@ -135,6 +115,17 @@ Outcome<SerialPort::Line> SerialPort::next() {
 
 using api::kRowFields;
 using api::RowField;
+
+/// Command line of `fitgauge gauge`, as typed; an empty text was not given.
+struct GaugeOptions {
+  std::string designation;  ///< or the nominal size, with limits of a drawing
+  std::string measured{};   ///< mm, with a point or a comma; alternatively:
+  std::string serial{};     ///< a port whose lines are values
+  unsigned baud = 9600;
+  std::string pattern{};  ///< of a line; its first group is the value
+  bool record = false;
+  std::array<std::string, api::RowField::Count> fields{};  ///< by RowField::Index, from Feature on
+};
 
 struct VerdictWord {
   std::string_view word;
@@ -220,8 +211,7 @@ std::string record_body(const GaugeOptions& options, const std::string& measured
 }  // namespace
 
 Outcome<ExitCode> verdict_exit_code(std::string_view word) {
-  const auto found = std::find_if(kVerdicts.begin(), kVerdicts.end(),
-                                  [word](const VerdictWord& v) { return v.word == word; });
+  const auto found = std::ranges::find(kVerdicts, word, &VerdictWord::word);
   if (found != kVerdicts.end()) return found->exit_code;
   return Failure{
       ExitCode::NoAnswer,
@@ -229,8 +219,7 @@ Outcome<ExitCode> verdict_exit_code(std::string_view word) {
 }
 
 Colour verdict_colour(std::string_view word) {
-  const auto found = std::find_if(kVerdicts.begin(), kVerdicts.end(),
-                                  [word](const VerdictWord& v) { return v.word == word; });
+  const auto found = std::ranges::find(kVerdicts, word, &VerdictWord::word);
   return found == kVerdicts.end() ? Colour::Cyan : found->colour;
 }
 
@@ -260,7 +249,7 @@ Outcome<std::string> measured_text(const std::string& typed) {
 }
 
 Outcome<ExitCode> show_verdict(const Context& context, const Answer& answer) {
-  const auto document = TRY(read_document(answer, context.client.url()));
+  const auto document = TRY(context.document_of(answer));
   if (context.json) {
     context.print_document(answer.body);
   } else {
@@ -274,13 +263,12 @@ namespace {
 Outcome<ExitCode> judge(const Context& context, const GaugeOptions& options,
                         const std::string& measured) {
   const auto text = TRY(measured_text(measured));
-  auto answer =
-      options.record
-          ? context.post_once("/v1/measurements", record_body(options, text))
-          : context.client.send({.target = "/v1/verdicts/" + percent_encoded(options.designation) +
-                                           verdict_query(options, text)});
-  answer = expect_ok(std::move(answer), context.client.url());
-  return answer ? show_verdict(context, *answer) : answer.error();
+  const auto answer =
+      TRY(options.record
+              ? context.post_once("/v1/measurements", record_body(options, text))
+              : context.send({.target = "/v1/verdicts/" + percent_encoded(options.designation) +
+                                        verdict_query(options, text)}));
+  return show_verdict(context, answer);
 }
 
 /// Decimals in mm, also from Digimatic adapters (01A+0025.013).
@@ -332,8 +320,9 @@ Outcome<ExitCode> follow_port(const Context& context, GaugeOptions options) {
   }
 }
 
-}  // namespace
-
+/// `fitgauge gauge 25H7 25.013`: judges a value, and stores it with --record; the exit code is the
+/// verdict. With --serial judges line after line, until the port is gone or a value cannot be
+/// stored.
 Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options) {
   const auto given = [&](std::size_t field) { return !options.fields.at(field).empty(); };
   if ((given(RowField::Upper) || given(RowField::Lower)) &&
@@ -347,6 +336,39 @@ Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options)
                    "give a measured value, or --serial PORT; see fitgauge gauge --help"};
   }
   return judge(context, options, options.measured);
+}
+
+}  // namespace
+
+void add_gauge(CLI::App& app, Action& chosen) {
+  const auto [gauge, options] =
+      add_command(app, "gauge", "Judge a value: fitgauge gauge 25H7 25.013", chosen, run_gauge);
+  gauge
+      ->add_option("designation", options->designation,
+                   "Size and tolerance class, or a nominal size")
+      ->required();
+  const auto measured = gauge->add_option("measured", options->measured, "Measured value in mm");
+  const auto serial =
+      gauge->add_option("--serial", options->serial, "Serial port that sends the values")
+          ->excludes(measured);
+  gauge
+      ->add_option("--baud", options->baud,
+                   "Speed of the port, 1200 to 115200 bit/s (default: 9600)")
+      ->needs(serial);
+  gauge
+      ->add_option("--pattern", options->pattern,
+                   "Regular expression of a line; its first group is the value")
+      ->needs(serial);
+  const auto record = gauge->add_flag("--record", options->record, "Store the measurement");
+  for (std::size_t i = RowField::Feature; i < RowField::Count; ++i) {
+    const RowField& field = api::kRowFields.at(i);
+    const auto option = gauge->add_option(option_name(field.name), options->fields.at(i),
+                                          std::string(field.meaning));
+    const bool is_limit = i == RowField::Upper || i == RowField::Lower;  // run_gauge says more
+    if (!is_limit && (i < RowField::Uncertainty || i >= RowField::Kept)) option->needs(record);
+  }
+  gauge->get_option("--feature")->check(CLI::IsMember({"hole", "shaft"}));
+  gauge->get_option("--measured-at")->excludes(serial);
 }
 
 }  // namespace fitgauge::cli

@@ -5,7 +5,6 @@
 
 #include "base/number.hpp"
 #include "base/text.hpp"
-#include "cli/json_object.hpp"
 #include "cli/open_programs.hpp"
 #include "cli/program_help.hpp"
 #include "cli/program_remedies.hpp"
@@ -365,8 +364,11 @@ std::optional<Reply> next_message(bool& is_lost) {
   return text;
 }
 
-}  // namespace
-
+/// `nc lsp`: a language server (LSP 3.17) on standard input and output, for both dialects, without
+/// a service: diagnostics, hover, completion, definition, rename, formatting and remedies. Single
+/// thread; unreadable input returns an error of JSON-RPC. Good if it ends after `shutdown`. @errors
+/// LocalFile if the input ends before, Usage for a malformed level.
+/// @param levels as of `nc check`
 Outcome<ExitCode> run_nc_lsp(const Context&, const std::vector<std::string>& levels) {
   const auto read = TRY(read_levels(levels));
   std::ios::sync_with_stdio(false);
@@ -384,6 +386,15 @@ Outcome<ExitCode> run_nc_lsp(const Context&, const std::vector<std::string>& lev
   }
   return server.is_over && server.is_shut_down ? ExitCode::Good
                                                : ExitCode::Rework;  // 1, as LSP has it
+}
+
+}  // namespace
+
+void add_lsp(CLI::App& nc, Action& chosen) {
+  const auto [server, levels] =
+      add_command(nc, "lsp", "Run a language server for an editor on standard input and output",
+                  chosen, run_nc_lsp);
+  add_levels(*server, *levels);
 }
 
 }  // namespace fitgauge::cli

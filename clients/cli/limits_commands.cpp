@@ -2,8 +2,7 @@
 
 #include "base/length.hpp"
 #include "cli/address.hpp"
-#include "cli/local_files.hpp"
-#include "cli/problem.hpp"
+#include "cli/registration.hpp"
 #include "cli/tolerance_zones.hpp"
 
 namespace fitgauge::cli {
@@ -41,8 +40,24 @@ std::string clearances(const JsonValue& fit, std::string_view unit) {
                      format_um(-least), fmt::arg("unit", unit));
 }
 
-Outcome<Answer> get(const Context& context, const std::string& target) {
-  return expect_ok(context.client.send({.target = target}), context.client.url());
+/// Figures of stored values; absent if the caller did not ask for them.
+std::string measured_clearance(const JsonValue& stored, const Terminal& terminal) {
+  if (!stored.is(JsonValue::Kind::Object)) return "";
+  const auto number = [](const JsonValue& of, std::string_view name) {
+    return std::strtod(std::string(of.text_of(name)).c_str(), nullptr);
+  };
+  const auto count = [&stored](std::string_view side) {
+    return stored.member(side).member("selection").text_of("count");
+  };
+  return fmt::format(
+      "measured: {} holes, {} shafts; clearance {:.3f} {unit}, s {:.3f} {unit}; interference with "
+      "a probability of {:.3g}\n{}",
+      count("hole"), count("shaft"), number(stored, "mean_clearance_um"),
+      number(stored, "standard_deviation_um"), number(stored, "probability_of_interference"),
+      stored.text_of("stable") == "true"
+          ? ""
+          : "NOT STABLE: these figures do not predict the next parts\n",
+      fmt::arg("unit", terminal.micrometre()));
 }
 
 std::string format_limit_gauge(const JsonValue& gauge, const Terminal& /*terminal*/) {
@@ -99,25 +114,9 @@ std::string format_standard(const JsonValue& standard, const Terminal& /*termina
 /// Requests a document and prints it, or the text that `format` makes from it.
 template <class Format>
 Outcome<ExitCode> show(const Context& context, const std::string& target, const Format& format) {
-  const auto answer = get(context, target);
-  return show(context, answer, [&](const JsonValue& document) {
+  return show(context, context.send({.target = target}), [&](const JsonValue& document) {
     context.print("{}", format(document, context.out));
   });
-}
-
-/// The path and query of a table in the form that is wanted.
-Outcome<std::string> table_target(const TableOptions& options, const std::string& format) {
-  const std::string table = "/v1/tables/" + percent_encoded(options.feature);
-  if (format == "tab") {
-    if (options.classes.empty() && options.revision.empty()) return table + ".tab";
-    return Failure{ExitCode::Usage,
-                   "--classes and --revision need --format csv or json: the table for the control "
-                   "has every class"};
-  }
-  std::string target = table + "?format=" + format;
-  if (!options.classes.empty()) target += "&classes=" + percent_encoded(options.classes);
-  if (!options.revision.empty()) target += "&revision=" + percent_encoded(options.revision);
-  return target;
 }
 
 }  // namespace
@@ -150,30 +149,6 @@ std::string format_limits(const JsonValue& limits, const Terminal& terminal) {
   return text;
 }
 
-namespace {
-
-/// Figures of stored values; absent if the caller did not ask for them.
-std::string measured_clearance(const JsonValue& stored, const Terminal& terminal) {
-  if (!stored.is(JsonValue::Kind::Object)) return "";
-  const auto number = [](const JsonValue& of, std::string_view name) {
-    return std::strtod(std::string(of.text_of(name)).c_str(), nullptr);
-  };
-  const auto count = [&stored](std::string_view side) {
-    return stored.member(side).member("selection").text_of("count");
-  };
-  return fmt::format(
-      "measured: {} holes, {} shafts; clearance {:.3f} {unit}, s {:.3f} {unit}; interference with "
-      "a probability of {:.3g}\n{}",
-      count("hole"), count("shaft"), number(stored, "mean_clearance_um"),
-      number(stored, "standard_deviation_um"), number(stored, "probability_of_interference"),
-      stored.text_of("stable") == "true"
-          ? ""
-          : "NOT STABLE: these figures do not predict the next parts\n",
-      fmt::arg("unit", terminal.micrometre()));
-}
-
-}  // namespace
-
 std::string format_fit(const JsonValue& fit, const Terminal& terminal) {
   const JsonValue& hole = fit.member("hole");
   const JsonValue& shaft = fit.member("shaft");
@@ -189,10 +164,20 @@ std::string format_fit(const JsonValue& fit, const Terminal& terminal) {
   return text + measured_clearance(fit.member("statistical").member("stored"), terminal);
 }
 
+namespace {
+
+/// `fitgauge limits 25H7`
 Outcome<ExitCode> run_limits(const Context& context, const std::string& designation) {
   return show(context, "/v1/limits/" + percent_encoded(designation), format_limits);
 }
 
+struct FitQuery {
+  std::string designation;
+  std::vector<std::string> holes{};  ///< filters of stored values: `characteristic=bore`
+  std::vector<std::string> shafts{};
+  std::string subgroups{};  ///< use or ignore
+};
+/// `fitgauge fit 25H7/g6`, with the tolerance zones drawn, and the clearance of stored values.
 Outcome<ExitCode> run_fit(const Context& context, const FitQuery& query) {
   std::string target = "/v1/fits/" + percent_encoded(query.designation);
   char separator = '?';
@@ -211,10 +196,18 @@ Outcome<ExitCode> run_fit(const Context& context, const FitQuery& query) {
   return show(context, target, format_fit);
 }
 
+/// `fitgauge limit-gauge 25H7`: the sizes of its limit gauges.
 Outcome<ExitCode> run_limit_gauge(const Context& context, const std::string& designation) {
   return show(context, "/v1/gauges/" + percent_encoded(designation), format_limit_gauge);
 }
 
+struct FitSearch {
+  std::string nominal_mm;
+  std::string min_clearance_um{};
+  std::string max_clearance_um{};
+  int limit = 20;
+};
+/// `fitgauge fits 25 --min-um 5 --max-um 45`: the fits with clearances between two bounds.
 Outcome<ExitCode> run_fits(const Context& context, const FitSearch& search) {
   return show(
       context,
@@ -224,6 +217,11 @@ Outcome<ExitCode> run_fits(const Context& context, const FitSearch& search) {
       format_fits);
 }
 
+struct StandardQuery {
+  std::string name{};
+  std::string size_mm{};
+};
+/// `fitgauge standards`: which there are; with a name, its numbers.
 Outcome<ExitCode> run_standards(const Context& context, const StandardQuery& query) {
   if (query.name.empty()) return show(context, "/v1/standards", format_standards);
   std::string target = "/v1/standards/" + percent_encoded(query.name);
@@ -231,30 +229,43 @@ Outcome<ExitCode> run_standards(const Context& context, const StandardQuery& que
   return show(context, target, format_standard);
 }
 
-Outcome<ExitCode> run_tables_export(const Context& context, const TableOptions& options) {
-  std::string format = options.format;
-  if (format.empty()) format = context.json ? "json" : "csv";
-  const auto target = TRY(table_target(options, format));
-  const auto answer = TRY(get(context, target));
-  const auto written = write_file(options.output, answer.body);
-  return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
-}
+}  // namespace
 
-Outcome<ExitCode> run_version(const Context& context) {
-  if (!context.json) context.print("fitgauge {}\n", FITGAUGE_VERSION);
-  const auto answer = TRY(get(context, "/openapi.json"));
-  const auto document = TRY(read_document(answer, context.client.url()));
-  const std::string_view service = document.member("info").text_of("version");
-  if (context.json) {
-    context.print_document(JsonObject()
-                               .add("fitgauge", FITGAUGE_VERSION)
-                               .add("fitgauged", service)
-                               .add("server", context.client.url())
-                               .text());
-  } else {
-    context.print("fitgauged {} at {}\n", service, context.client.url());
-  }
-  return ExitCode::Good;
+void add_limits(CLI::App& app, Action& chosen) {
+  const std::string size_and_class = "Size and tolerance class, such as 25H7";
+  const auto [limits, size] =
+      add_command(app, "limits", "Limits of size: fitgauge limits 25H7", chosen, run_limits);
+  limits->add_option("designation", *size, size_and_class)->required();
+  const auto [fit, query] = add_command(
+      app, "fit", "Clearances and tolerance zones of a fit: fitgauge fit 25H7/g6", chosen, run_fit);
+  fit->add_option("fit", query->designation,
+                  "Size, class of the hole and class of the shaft, such as 25H7/g6")
+      ->required();
+  add_repeated(*fit, "--hole", query->holes,
+               "Filter of the stored holes, such as characteristic=bore");
+  add_repeated(*fit, "--shaft", query->shafts,
+               "Filter of the stored shafts, such as characteristic=pin");
+  fit->add_option("--subgroups", query->subgroups,
+                  "use: by subgroup; ignore: single values (default: use)")
+      ->check(CLI::IsMember({"use", "ignore"}));
+  const auto [gauge, gauged] = add_command(
+      app, "limit-gauge", "GO and NO-GO sizes: fitgauge limit-gauge 25H7", chosen, run_limit_gauge);
+  gauge->add_option("designation", *gauged, size_and_class)->required();
+  const auto [fits, search] =
+      add_command(app, "fits", "Find fits with clearances between two bounds", chosen, run_fits);
+  fits->add_option("nominal", search->nominal_mm, "Nominal size in mm")->required();
+  fits->add_option("--min-um", search->min_clearance_um,
+                   "Smallest clearance in µm; negative for interference")
+      ->required();
+  fits->add_option("--max-um", search->max_clearance_um, "Greatest clearance in µm")->required();
+  fits->add_option("--limit", search->limit, "Maximum number of fits (default: 20)")
+      ->check(CLI::Range(1, 1000));
+  const auto [standards, standard] =
+      add_command(app, "standards", "Tables of other standards, such as iso965-1 for threads",
+                  chosen, run_standards);
+  standards->add_option("name", standard->name,
+                        "Standard: iso2768-1, iso965-1, din6885-1 or iso492");
+  standards->add_option("--size-mm", standard->size_mm, "Only the rows for this size in mm");
 }
 
 }  // namespace fitgauge::cli

@@ -4,9 +4,7 @@
 #include "base/number.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"
-#include "cli/json_object.hpp"
 #include "cli/local_files.hpp"
-#include "cli/problem.hpp"
 #include "nc/iso/parser.hpp"
 #include "nc/iso/printer.hpp"
 #include "nc/klartext/printer.hpp"
@@ -103,10 +101,9 @@ void print(const Context& context, std::string_view format, const std::vector<Di
 
 /// The content of a file of the service. @errors as of the service
 Outcome<std::vector<Diagnostic>> found_there(const Context& context, const std::string& file) {
-  const auto answer = TRY(expect_ok(
-      context.client.send({.method = "POST", .target = file_target(file) + "?action=check"}),
-      context.client.url()));
-  const auto document = TRY(read_document(answer, context.client.url()));
+  const auto answer =
+      TRY(context.send({.method = "POST", .target = file_target(file) + "?action=check"}));
+  const auto document = TRY(context.document_of(answer));
   std::vector<Diagnostic> all;
   for (const JsonValue& item : document.member("diagnostics").items) {
     Diagnostic& found = all.emplace_back();
@@ -174,6 +171,19 @@ void apply_levels(const Levels& levels, std::vector<Diagnostic>& found) {
   });
 }
 
+namespace {
+
+struct CheckOptions {
+  std::vector<std::string> files;
+  bool from_control = false;  ///< use files of the service
+  std::string format{};       ///< text, json or sarif; text when empty, json with --json
+  std::vector<std::string> levels{};
+  RunOptions run{};  ///< with a setup_file the programs also run on it
+};
+
+/// `nc check FILE…`: checks local programs without a service, or programs of the service, and the
+/// programs they call. Exit code 0: nothing or notes, 1: warnings, 2: errors. @errors LocalFile,
+/// Refused for the setup, Usage for a malformed level or parameter.
 Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& options) {
   const auto levels = TRY(read_levels(options.levels));
   if (options.from_control && !options.run.setup_file.empty())
@@ -203,8 +213,6 @@ Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& optio
   for (const Diagnostic& each : all) worst = std::max(worst, each.severity);
   return static_cast<ExitCode>(worst);  // 0, 1, 2
 }
-
-namespace {
 
 struct ReadProgram {
   klartext::Program program;
@@ -244,8 +252,7 @@ Outcome<ReadProgram> read_program(const Context& context, const std::string& fil
                                   bool from_control) {
   std::string bytes;
   if (from_control) {
-    auto answer =
-        TRY(expect_ok(context.client.send({.target = file_target(file)}), context.client.url()));
+    auto answer = TRY(context.send({.target = file_target(file)}));
     bytes = std::move(answer.body);
   } else {
     bytes = TRY(read_file(file));
@@ -277,8 +284,15 @@ bool is_iso_name(std::string_view file) {
   return file.size() > 2 && ascii_iequals(file.substr(file.size() - 2), ".i");
 }
 
-}  // namespace
+struct FormatOptions {
+  std::vector<std::string> files;
+  bool in_place = false;  ///< writes the files; otherwise prints
+  bool from_control = false;
+};
 
+/// `nc format FILE…`: formats a program as a control lists it; a file keeps its encoding and line
+/// ends.
+/// @errors LocalFile, ProgramFailed for an unreadable program.
 Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& options) {
   if (options.in_place && options.from_control)
     return Failure{ExitCode::Usage, "--in-place is for local files: remove it with --from-control"};
@@ -296,6 +310,15 @@ Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& opt
   return ExitCode::Good;
 }
 
+struct ConvertOptions {
+  std::string file;
+  std::string target;         ///< a file here
+  bool from_control = false;  ///< `file` is on the service
+  bool force = false;         ///< replace a file that is there
+};
+
+/// `nc convert A.i A.h` and `A.h A.i`: the program in the other dialect. @errors Usage for other
+/// names, LocalFile, ProgramFailed for a program with errors or a block without a form there.
 Outcome<ExitCode> run_nc_convert(const Context& context, const ConvertOptions& options) {
   const bool is_iso = is_iso_name(options.file);
   if (is_iso == is_iso_name(options.target))
@@ -312,6 +335,42 @@ Outcome<ExitCode> run_nc_convert(const Context& context, const ConvertOptions& o
   TRY(may_replace(options.target, options.force));
   const auto written = write_file(options.target, read.as_written(text));
   return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
+}
+
+}  // namespace
+
+void add_levels(CLI::App& command, std::vector<std::string>& levels) {
+  add_repeated(command, "--level", levels, "Level of a code: CODE=off, note, warning or error");
+}
+
+void add_programs(CLI::App& nc, Action& chosen) {
+  const auto [check, checked] =
+      add_command(nc, "check", "Check programs, local or on the control", chosen, run_nc_check);
+  check->add_option("files", checked->files, "Local files, or paths on the control")->required();
+  check->add_flag("--from-control", checked->from_control, "Use files of the service");
+  check->add_option("--format", checked->format, "Format of the findings: text, json, sarif")
+      ->check(CLI::IsMember({"text", "json", "sarif"}));
+  add_levels(*check, checked->levels);
+  check
+      ->add_option("--setup", checked->run.setup_file,
+                   "JSON file with a setup; the check also runs the programs on it")
+      ->type_name("FILE");
+  add_repeated(*check, "--set", checked->run.parameters,
+               "Parameter that is set before block 0 of this run: Q1=25");
+
+  const auto [format, formatted] =
+      add_command(nc, "format", "Format programs as a control does", chosen, run_nc_format);
+  format->add_option("files", formatted->files, "Local files, or paths on the control")->required();
+  format->add_flag("--in-place", formatted->in_place, "Write to the files (default: print)");
+  format->add_flag("--from-control", formatted->from_control, "Use files of the service");
+
+  const auto [convert, converted] = add_command(
+      nc, "convert", "DIN/ISO to Klartext or back: nc convert a.i a.h", chosen, run_nc_convert);
+  convert->add_option("file", converted->file, "Local file, or path on the control")->required();
+  convert->add_option("target", converted->target, "Local file for the converted program")
+      ->required();
+  convert->add_flag("--from-control", converted->from_control, "Use a program of the service");
+  convert->add_flag("--force", converted->force, "Replace an existing file");
 }
 
 }  // namespace fitgauge::cli

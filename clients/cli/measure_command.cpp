@@ -3,8 +3,8 @@
 #include <future>
 
 #include "base/number.hpp"
-#include "cli/http_client.hpp"
 #include "cli/local_files.hpp"
+#include "cli/registration.hpp"
 #include "cli/row_input.hpp"
 #include "cli/terminal.hpp"
 #include "formats/sheet/record_reader.hpp"
@@ -178,7 +178,7 @@ class Upload {
         [this](const Failure& failure, std::chrono::milliseconds wait) { notice(failure, wait); });
     if (!answer) return interrupted(answer.error());
     if (!answer->ok()) return refused(chunks, chunk, *answer);
-    const auto document = TRY(read_document(*answer, context_.client.url()));
+    const auto document = TRY(context_.document_of(*answer));
     const VerdictCounts counts = counts_of(document);
     state_.counts += counts;
     state_.stored = chunk.end;
@@ -310,9 +310,47 @@ ExitCode worst_verdict(const VerdictCounts& counts) {
   return counts.indeterminate > 0 ? ExitCode::Indeterminate : ExitCode::Good;
 }
 
+namespace {
+
+/// `fitgauge import`: stores the rows of a CSV in chunks, each with an idempotency key. The journal
+/// has the stored rows and the last chunk before they are needed: a stopped run can continue at any
+/// point and stores no row twice.
 Outcome<ExitCode> run_measure(const Context& context, const MeasureOptions& options) {
   auto journal = TRY(open_journal(context, options));
   return Upload(context, options, std::move(journal)).run();
+}
+
+}  // namespace
+
+void add_import(CLI::App& app, Action& chosen) {
+  const auto [measure, options] =
+      add_command(app, "import", "Store the measurements of a CSV, NDJSON, DFQ or QIF file", chosen,
+                  run_measure);
+  measure->alias("measure");
+  measure->add_option("file", options->input, "CSV, NDJSON, DFQ or QIF file; - is standard input")
+      ->required();
+  measure->add_option("--state", options->state_file,
+                      "File that keeps the progress, to resume a stopped import");
+  measure->add_option("--chunk", options->chunk_rows, "Rows in each request (default: 100000)")
+      ->check(CLI::Range(1, 100'000));
+  measure
+      ->add_option("--map", options->columns,
+                   "Column and its field, or date or time: Istwert=measured_mm; an empty field "
+                   "ignores the column")
+      ->allow_extra_args(false);
+  measure->add_option("--set", options->constants, "Field and value for all rows: machine=M3")
+      ->allow_extra_args(false);
+  measure->add_option("--time-zone", options->time_zone,
+                      "Time zone of times without an offset, such as Europe/Berlin");
+  measure->add_option("--length-unit", options->length_unit,
+                      "Unit of a DFQ file that names none: mm or inch");
+  measure->add_option("--encoding", options->encoding,
+                      "Encoding: auto, utf-8, utf-16 or windows-1252 (default: auto)");
+  measure->add_flag("--leave-out-others", options->leave_out_others,
+                    "Ignore columns without a field");
+  measure->add_flag("--again", options->again, "Store every row, even if it is stored already");
+  measure->add_flag("--exit-verdict", options->exit_verdict,
+                    "Exit with the code of the worst verdict");
 }
 
 }  // namespace fitgauge::cli

@@ -22,11 +22,6 @@ struct MeasureOptions {
   bool exit_verdict = false;  ///< the exit code is the worst verdict
 };
 
-/// `fitgauge import`: stores the rows of a CSV in chunks, each with an idempotency key. The journal
-/// has the stored rows and the last chunk before they are needed: a stopped run can continue at any
-/// point and stores no row twice.
-Outcome<ExitCode> run_measure(const Context& context, const MeasureOptions& options);
-
 /// Returns one line for each bad field of a chunk, with the line of the input: `night.csv:17:
 /// measured_mm: …`. @param line_of converts a line of the body to a line of the input
 std::string explain_rows(const Problem& problem, const std::string& input,

@@ -3,16 +3,10 @@
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"
-#include "cli/http_client.hpp"
 #include "cli/local_files.hpp"
-#include "cli/problem.hpp"
 
 namespace fitgauge::cli {
 namespace {
-
-Outcome<Answer> send(const Context& context, const Request& request) {
-  return expect_ok(context.client.send(request), context.client.url());
-}
 
 /// Prints each finding with its block.
 void print_diagnostics(const JsonValue& document, std::FILE* stream) {
@@ -41,13 +35,12 @@ Outcome<std::string> setup_json(const RunOptions& options) {
   return Failure{ExitCode::LocalFile, options.setup_file + ": is not JSON"};
 }
 
-Failure refused_run(const Context& context, const Answer& answer) {
-  const auto document = parse_document(answer.body);
+/// Prints the findings of a program that the service does not run.
+Failure refused_run(const Context& context, Failure failure) {
+  const auto document = parse_document(failure.document);
   if (document && !context.json) print_diagnostics(*document, stderr);
-  Failure failure = failure_of(answer, context.client.url());
-  if (document && document->find("diagnostics") != nullptr) {
-    failure.exit_code = ExitCode::ProgramFailed;
-  }
+  const bool has_findings = document && document->find("diagnostics") != nullptr;
+  if (has_findings) failure.exit_code = ExitCode::ProgramFailed;
   return failure;
 }
 
@@ -58,48 +51,6 @@ void print_messages(const JsonValue& run) {
     fmt::print(stderr, "{}:{}: {} {}: {}\n", message.text_of("program"), message.text_of("line"),
                message.text_of("kind"), message.text_of("number"), message.text_of("text"));
   }
-}
-
-Outcome<ExitCode> run_nc_ls(const Context& context, const std::string& prefix) {
-  const auto answer =
-      send(context,
-           {.target = "/v1/files" + (prefix.empty() ? "" : "?prefix=" + percent_encoded(prefix))});
-  return show(context, answer, [&](const JsonValue& document) {
-    for (const JsonValue& file : document.member("files").items) {
-      context.print("{:>9}  {}  {}\n", file.text_of("size"), file.text_of("modified_at"),
-                    file.text_of("path"));
-    }
-  });
-}
-
-Outcome<ExitCode> run_nc_put(const Context& context, const std::vector<std::string>& files,
-                             const std::string& destination) {
-  if (files.size() > 1 && !names_folder(destination)) {
-    return Failure{ExitCode::Usage,
-                   fmt::format("several files need a folder: write {}/", destination)};
-  }
-  for (const std::string& file : files) {
-    const auto bytes = TRY(read_file(file));
-    const std::string path =
-        names_folder(destination) ? destination + std::string(base_name(file)) : destination;
-    const auto answer = expect_ok(context.persist({.method = "PUT",
-                                                   .target = file_target(path),
-                                                   .content_type = "application/octet-stream",
-                                                   .body = bytes}),
-                                  context.client.url());
-    if (!answer) return answer.error();
-    if (!context.json) context.print("{}  {} bytes\n", control_path(path), bytes.size());
-  }
-  return ExitCode::Good;
-}
-
-Outcome<ExitCode> run_nc_get(const Context& context, const GetOptions& options) {
-  const std::string file =
-      options.file.empty() ? std::string(base_name(options.path)) : options.file;
-  const auto answer = TRY(send(context, {.target = file_target(options.path)}));
-  TRY(may_replace(file, options.force));
-  const auto written = write_file(file, answer.body);
-  return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
 }
 
 Outcome<std::string> run_order(const RunOptions& options) {
@@ -136,9 +87,9 @@ Outcome<std::string> run_there(const Context& context, const RunOptions& options
   if (!options.files_to.empty())
     return Failure{ExitCode::Usage, "--files-to is for local runs: use fitgauge runs get ID NAME"};
   const auto order = TRY(run_order(options));
-  auto answer = TRY(context.post_once("/v1/runs", order));
-  if (!answer.ok()) return refused_run(context, answer);
-  return std::move(answer.body);
+  auto answer = context.post_once("/v1/runs", order);
+  if (!answer) return refused_run(context, std::move(answer).error());
+  return std::move(answer->body);
 }
 
 /// The usual cause of a probing move without contact (error 1014), if the run has no setup.
@@ -174,8 +125,8 @@ Outcome<ExitCode> run_one(const Context& context, const RunOptions& options) {
   return verdict.empty() ? ExitCode::Good : verdict_exit_code(verdict);
 }
 
-}  // namespace
-
+/// `nc run PROGRAM…`: prints the screen; the exit code is the verdict of the last measuring cycle,
+/// Good without one, ProgramFailed when the program did not complete.
 Outcome<ExitCode> run_nc_run(const Context& context, const RunOptions& options) {
   ExitCode worst = ExitCode::Good;
   for (const std::string& program : options.programs) {
@@ -187,6 +138,96 @@ Outcome<ExitCode> run_nc_run(const Context& context, const RunOptions& options) 
     worst = std::max(worst, code);
   }
   return worst;
+}
+
+/// `nc ls [PREFIX]`
+Outcome<ExitCode> run_nc_ls(const Context& context, const std::string& prefix) {
+  const std::string query = prefix.empty() ? "" : "?prefix=" + percent_encoded(prefix);
+  return show(context, context.send({.target = "/v1/files" + query}),
+              [&](const JsonValue& document) {
+                for (const JsonValue& file : document.member("files").items) {
+                  context.print("{:>9}  {}  {}\n", file.text_of("size"),
+                                file.text_of("modified_at"), file.text_of("path"));
+                }
+              });
+}
+
+/// `nc put FILE… DESTINATION`: a destination that ends with a stroke is a folder, which several
+/// files need.
+Outcome<ExitCode> run_nc_put(const Context& context, const Words& paths) {
+  const std::string& destination = paths.back();
+  const std::vector<std::string> files(paths.begin(), paths.end() - 1);
+  if (files.size() > 1 && !names_folder(destination)) {
+    return Failure{ExitCode::Usage,
+                   fmt::format("several files need a folder: write {}/", destination)};
+  }
+  for (const std::string& file : files) {
+    const auto bytes = TRY(read_file(file));
+    const std::string path =
+        names_folder(destination) ? destination + std::string(base_name(file)) : destination;
+    TRY(context.persist({.method = "PUT",
+                         .target = file_target(path),
+                         .content_type = "application/octet-stream",
+                         .body = bytes}));
+    if (!context.json) context.print("{}  {} bytes\n", control_path(path), bytes.size());
+  }
+  return ExitCode::Good;
+}
+
+struct GetOptions {
+  std::string path;
+  std::string file{};  ///< its name here when empty; `-` is standard output
+  bool force = false;  ///< replace a file that is there
+};
+
+/// `nc get PATH [FILE]`: asks before it replaces a file. @errors LocalFile without consent.
+Outcome<ExitCode> run_nc_get(const Context& context, const GetOptions& options) {
+  const std::string file =
+      options.file.empty() ? std::string(base_name(options.path)) : options.file;
+  const auto answer = TRY(context.send({.target = file_target(options.path)}));
+  TRY(may_replace(file, options.force));
+  const auto written = write_file(file, answer.body);
+  return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
+}
+
+}  // namespace
+
+void add_nc(CLI::App& nc, Action& chosen) {
+  const auto [run, options] =
+      add_command(nc, "run", "Run a program on a simulated machine", chosen, run_nc_run);
+  run->add_option("programs", options->programs, "Local files, or paths on the control")
+      ->required();
+  run->add_flag("--from-control", options->from_control, "Use programs of the service");
+  run->add_option("--files-to", options->files_to,
+                  "Local folder for the files that the run writes");
+  run->add_flag("--force", options->force, "Replace existing files in this folder");
+  const auto setup = run->add_option("--setup", options->setup,
+                                     "JSON file; with --from-control the name of a stored setup")
+                         ->type_name("FILE");
+  run->add_option("--setup-file", options->setup_file, "JSON file with a setup")->excludes(setup);
+  add_repeated(*run, "--set", options->parameters,
+               "Parameter that is set before block 0: Q1=25, QS1=H7");
+  run->add_option("--on-stop", options->on_stop, "At a STOP: continue or end (default: continue)");
+  run->add_option("--language", options->language,
+                  "Language of FN 16 masks: english, german, dutch, italian or polish");
+  run->add_option("--part-id", options->part_id, "Part id that is stored with the measurements");
+  run->add_option("--order", options->order, "Work order that is stored with the measurements");
+  run->add_flag("--block-skip", options->block_skip, "Skip blocks that begin with /");
+
+  const auto [list, prefix] = add_command(nc, "ls", "List the control's files", chosen, run_nc_ls);
+  list->add_option("prefix", *prefix, "Only paths that begin with this text");
+
+  const auto [put, paths] =
+      add_command(nc, "put", "Store files: nc put 8255.h nc_prog/8255/", chosen, run_nc_put);
+  put->add_option("paths", *paths, "Files, then the path or folder/ on the control")
+      ->required()
+      ->expected(2, CLI::detail::expected_max_vector_size);
+
+  const auto [get, got] =
+      add_command(nc, "get", "Fetch a file: nc get nc_prog/8255/8255.h", chosen, run_nc_get);
+  get->add_option("path", got->path, "Path on the control")->required();
+  get->add_option("file", got->file, "Local file (default: the same name); - is standard output");
+  get->add_flag("--force", got->force, "Replace an existing file");
 }
 
 }  // namespace fitgauge::cli

@@ -1,12 +1,16 @@
-#include "cli/record_commands.hpp"
-
 #include "base/mapped_file.hpp"
 #include "cli/address.hpp"
 #include "cli/limits_commands.hpp"
+#include "cli/registration.hpp"
 #include "formats/step/drawing.hpp"
 
 namespace fitgauge::cli {
 namespace {
+
+struct PlanOptions {
+  std::string file;
+  std::string part{};  ///< the part whose plan it becomes; empty: it is printed
+};
 
 Failure local(const std::string& file, std::string_view why) {
   return {ExitCode::LocalFile, fmt::format("{}: {}", file, why)};
@@ -44,16 +48,12 @@ Outcome<ExitCode> store(const Context& context, const step::Drawing& drawing,
   std::optional<JsonValue> before;
   if (stored->status != kNotThere) {
     const auto found = TRY(expect_ok(stored, context.client.url()));
-    before = TRY(read_document(found, context.client.url()));
+    before = TRY(context.document_of(found));
   }
   const auto plan = step::plan_of(drawing, options.part, before ? &*before : nullptr);
   if (!plan) return local(options.file, plan.error().message);
-  const auto answer = expect_ok(context.client.send({.method = "PUT",
-                                                     .target = target,
-                                                     .content_type = "application/json",
-                                                     .body = plan->text}),
-                                context.client.url());
-  if (!answer) return answer.error();
+  TRY(context.send(
+      {.method = "PUT", .target = target, .content_type = "application/json", .body = plan->text}));
   for (const std::string& name : plan->compared.added) context.note("added: " + name);
   for (const std::string& name : plan->compared.gone) context.note("gone: " + name);
   for (const auto& one : plan->compared.changed)
@@ -61,8 +61,9 @@ Outcome<ExitCode> store(const Context& context, const step::Drawing& drawing,
   return ExitCode::Good;
 }
 
-}  // namespace
-
+/// `fitgauge plan from FILE`: reads a STEP file of any size without the service, and prints its
+/// sizes and its other content, or with `--part` stores the plan. Classes are those of the
+/// standard. @errors LocalFile for an unreadable file, with its line.
 Outcome<ExitCode> run_plan_from(const Context& context, const PlanOptions& options) {
   const auto file = MappedFile::open(options.file);
   if (!file) return local(options.file, file.error().message);
@@ -72,6 +73,18 @@ Outcome<ExitCode> run_plan_from(const Context& context, const PlanOptions& optio
   if (!drawing) return local(options.file, drawing.error().message);
   print(context, *drawing);
   return options.part.empty() ? ExitCode::Good : store(context, *drawing, options);
+}
+
+}  // namespace
+
+void add_plans(CLI::App& app, Action& chosen) {
+  CLI::App* plan = app.add_subcommand("plan", "Inspection plans");
+  plan->require_subcommand(1);
+  const auto [from, options] =
+      add_command(*plan, "from", "Read the sizes of a STEP drawing; --part stores them as a plan",
+                  chosen, run_plan_from);
+  from->add_option("file", options->file, "STEP file of AP242, AP203 or AP214")->required();
+  from->add_option("--part", options->part, "Part number of the plan");
 }
 
 }  // namespace fitgauge::cli

@@ -4,29 +4,10 @@
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"
-#include "cli/http_client.hpp"
 #include "cli/local_files.hpp"
-#include "cli/problem.hpp"
 #include "cli/watch_command.hpp"
 
 namespace fitgauge::cli {
-namespace {
-
-Outcome<Answer> post_once(const Context& context, std::string target, std::string body) {
-  return expect_ok(context.post_once(std::move(target), std::move(body)), context.client.url());
-}
-
-std::string note_line(const JsonValue& note) {
-  std::string line = fmt::format("{}  {}", note.text_of("received_at"), note.text_of("cause"));
-  for (const auto& [before, name] : {std::pair("-> ", "measure"), {"", "text"}, {"", "operator"}}) {
-    const std::string_view text = note.text_of(name);
-    if (!text.empty()) line += fmt::format("  {}{}", before, text);
-  }
-  return line;
-}
-
-}  // namespace
-
 std::string record_target(std::string path, const RecordQuery& query,
                           std::initializer_list<std::pair<std::string_view, std::string>> others) {
   char separator = '?';
@@ -44,11 +25,14 @@ std::string record_target(std::string path, const RecordQuery& query,
 }
 
 Outcome<JsonValue> get_document(const Context& context, const std::string& target) {
-  const auto answer = TRY(expect_ok(context.client.send({.target = target}), context.client.url()));
+  const auto answer = TRY(context.send({.target = target}));
   if (context.json) context.print_document(answer.body);
-  return read_document(answer, context.client.url());
+  return context.document_of(answer);
 }
 
+namespace {
+
+/// `fitgauge list`: a page of records, one a line, and on standard error how to get the next.
 Outcome<ExitCode> run_list(const Context& context, const RecordQuery& query) {
   const auto page = TRY(get_document(
       context, record_target("/v1/measurements", query,
@@ -61,6 +45,7 @@ Outcome<ExitCode> run_list(const Context& context, const RecordQuery& query) {
   return ExitCode::Good;
 }
 
+/// `fitgauge export`: writes every matching record as it arrives.
 Outcome<ExitCode> run_export(const Context& context, const RecordQuery& query) {
   const std::string usual = context.json ? "ndjson" : "csv";
   const std::string& format = query.format.empty() ? usual : query.format;
@@ -74,6 +59,7 @@ Outcome<ExitCode> run_export(const Context& context, const RecordQuery& query) {
   return ExitCode::Good;
 }
 
+/// `fitgauge summary`: count, verdicts, mean and scatter of each group.
 Outcome<ExitCode> run_summary(const Context& context, const RecordQuery& query) {
   const std::string group_by = query.group_by.empty() ? "characteristic" : query.group_by;
   const auto summary = TRY(get_document(
@@ -94,15 +80,42 @@ Outcome<ExitCode> run_summary(const Context& context, const RecordQuery& query) 
   return ExitCode::Good;
 }
 
+struct CorrectOptions {
+  std::string id;
+  std::string measured;  ///< mm, with a point or a comma
+  std::string reason;
+};
+
+/// `fitgauge correct m17 25.0131 --reason …`: a new record in place of a wrong one, which stays.
+/// The exit code is the new verdict.
 Outcome<ExitCode> run_correct(const Context& context, const CorrectOptions& options) {
   const auto measured = TRY(measured_text(options.measured));
   const std::string body =
       JsonObject().add("measured_mm", measured).add("reason", options.reason).text();
-  const auto answer =
-      post_once(context, "/v1/measurements/" + percent_encoded(options.id) + "/corrections", body);
-  return answer ? show_verdict(context, *answer) : answer.error();
+  const auto answer = TRY(
+      context.post_once("/v1/measurements/" + percent_encoded(options.id) + "/corrections", body));
+  return show_verdict(context, answer);
 }
 
+std::string note_line(const JsonValue& note) {
+  std::string line = fmt::format("{}  {}", note.text_of("received_at"), note.text_of("cause"));
+  for (const auto& [before, name] : {std::pair("-> ", "measure"), {"", "text"}, {"", "operator"}}) {
+    const std::string_view text = note.text_of(name);
+    if (!text.empty()) line += fmt::format("  {}{}", before, text);
+  }
+  return line;
+}
+
+struct NoteOptions {
+  std::string id;
+  std::string cause;
+  std::string measure;
+  std::string text;
+  std::string operator_name;
+};
+
+/// `fitgauge note m17 --cause … --measure …`: adds a note to a measurement; without options prints
+/// its notes.
 Outcome<ExitCode> run_note(const Context& context, const NoteOptions& options) {
   const std::string target = "/v1/measurements/" + percent_encoded(options.id) + "/notes";
   if (options.cause.empty() && options.measure.empty() && options.text.empty()) {
@@ -118,9 +131,60 @@ Outcome<ExitCode> run_note(const Context& context, const NoteOptions& options) {
                                .add_given("text", options.text)
                                .add_given("operator", options.operator_name)
                                .text();
-  const auto answer = TRY(post_once(context, target, body));
+  const auto answer = TRY(context.post_once(target, body));
   if (context.json) context.print_document(answer.body);
   return ExitCode::Good;
+}
+
+}  // namespace
+
+void add_filters(CLI::App& command, RecordQuery& query) {
+  for (std::size_t i = 0; i < kRecordFilters.size(); ++i) {
+    const auto& [name, help] = kRecordFilters.at(i);
+    command.add_option(
+        option_name(name), query.filters.at(i),
+        help.empty() ? fmt::format("Only measurements with this {}", name) : std::string(help));
+  }
+}
+
+void add_records(CLI::App& app, Action& chosen) {
+  const auto [list, listed] =
+      add_command(app, "list", "Print stored measurements", chosen, run_list);
+  add_filters(*list, *listed);
+  list->add_option("--limit", listed->limit, "Maximum number of measurements (default: 100)")
+      ->check(CLI::Range(1, 1000));
+  list->add_option("--after", listed->after, "Cursor that the previous page printed");
+
+  const auto [out, exported] =
+      add_command(app, "export", "Write stored measurements to a file", chosen, run_export);
+  add_filters(*out, *exported);
+  out->add_option("--format", exported->format,
+                  "Format: csv, ndjson, dfq (Q-DAS), qif or xlsx (default: csv)")
+      ->check(CLI::IsMember({"csv", "ndjson", "dfq", "qif", "xlsx"}));
+  out->add_option("--time-zone", exported->time_zone,
+                  "Time zone of times in dfq and xlsx, such as Europe/Berlin (default: UTC)");
+  out->add_option("--output,-o", exported->output, "File to write (default: standard output)");
+
+  const auto [summary, summed] = add_command(
+      app, "summary", "Count, mean and standard deviation of each group", chosen, run_summary);
+  add_filters(*summary, *summed);
+  summary->add_option("--group-by", summed->group_by,
+                      "Field that forms the groups (default: characteristic)");
+
+  const auto [correct, options] = add_command(
+      app, "correct", "Correct a measurement: fitgauge correct m17 25.0131", chosen, run_correct);
+  correct->add_option("id", options->id, "Id of the measurement")->required();
+  correct->add_option("measured", options->measured, "Correct value in mm")->required();
+  correct->add_option("--reason", options->reason, "Reason for the correction")->required();
+
+  const auto [note, said] =
+      add_command(app, "note", "Add a note to a measurement, or show its notes", chosen, run_note);
+  note->add_option("id", said->id, "Id of the measurement")->required();
+  note->add_option("--cause", said->cause, "Cause of the value");
+  CLI::Option* action = note->add_option("--action", said->measure, "Action that was taken");
+  note->add_option("--measure", said->measure, "Another name of --action")->excludes(action);
+  note->add_option("--text", said->text, "Free text");
+  note->add_option("--operator", said->operator_name, "Author of the note");
 }
 
 }  // namespace fitgauge::cli

@@ -6,23 +6,43 @@
 
 namespace fitgauge::cli {
 
-// Each subject registers its commands here; add_commands() calls all of them.
+// Each subject registers its commands; add_commands() calls all of them.
 
-void add_gauging(CLI::App& app, Action& chosen);  ///< limits, fits, gauge, measure, statistics
-void add_records(CLI::App& app,
-                 Action& chosen);  ///< stored measurements: lists, corrections, figures
-void add_programs(CLI::App& app, Action& chosen);  ///< NC files and programs, runs, a control
+void add_limits(CLI::App& app, Action& chosen);      ///< limits, fits, limit gauges, standards
+void add_gauge(CLI::App& app, Action& chosen);       ///< gauge
+void add_import(CLI::App& app, Action& chosen);      ///< import
+void add_statistics(CLI::App& app, Action& chosen);  ///< figures of the values in a file
+void add_records(CLI::App& app, Action& chosen);     ///< stored measurements: lists, corrections
+void add_figures(CLI::App& app, Action& chosen);     ///< figures of stored measurements
+void add_plans(CLI::App& app, Action& chosen);       ///< plan
+void add_lsp(CLI::App& nc, Action& chosen);          ///< nc lsp
+void add_programs(CLI::App& nc, Action& chosen);     ///< nc check, format and convert
+void add_nc(CLI::App& nc, Action& chosen);           ///< nc run, and the files of the control
+void add_runs(CLI::App& app, Action& chosen);        ///< runs
+void add_control(CLI::App& app, Action& chosen);     ///< control
+void add_replay(CLI::App& app, Action& chosen);      ///< replay
+void add_stored(CLI::App& app, Action& chosen);      ///< documents and tables of the service
+void add_watch(CLI::App& app, Action& chosen);       ///< watch
 
 /// Registers one command whose options outlive the parsing; sets `chosen` to its action.
+/// @returns the command and its options
 template <class Options>
-CLI::App* add_command(CLI::App& parent, const std::string& name, const std::string& help,
-                      Action& chosen, const std::shared_ptr<Options>& options,
-                      Outcome<ExitCode> (*run)(const Context&, const Options&)) {
+std::pair<CLI::App*, Options*> add_command(CLI::App& parent, const std::string& name,
+                                           const std::string& help, Action& chosen,
+                                           Outcome<ExitCode> (*run)(const Context&,
+                                                                    const Options&)) {
+  const auto options = std::make_shared<Options>();
   CLI::App* command = parent.add_subcommand(name, help);
   command->callback([&chosen, options, run] {
     chosen = [options, run](const Context& context) { return run(context, *options); };
   });
-  return command;
+  return {command, options.get()};
+}
+
+/// Adds an option that may be given several times, each with one value.
+inline CLI::Option* add_repeated(CLI::App& command, const std::string& name,
+                                 std::vector<std::string>& values, const std::string& help) {
+  return command.add_option(name, values, help)->expected(1)->take_all();
 }
 
 /// The option of a field or query parameter: `--part-expansion` of part_expansion_um_per_m_k.

@@ -2,10 +2,7 @@
 
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"
-#include "cli/http_client.hpp"
-#include "cli/json_object.hpp"
 #include "cli/local_files.hpp"
-#include "cli/problem.hpp"
 #include "formats/measuring_log/measuring_log.hpp"
 
 namespace fitgauge::cli {
@@ -13,6 +10,12 @@ namespace {
 
 using log_reader::LogValue;
 using log_reader::MeasuringLog;
+
+struct ReplayOptions {
+  RunOptions run{};
+  std::string log{};       ///< of the control, as a file
+  std::string contacts{};  ///< JSON: [[X, Y, Z], null, …]
+};
 
 /// The logs of each cycle, in the order they were written.
 using ByCycle = std::map<int, std::vector<MeasuringLog>>;
@@ -43,8 +46,7 @@ Outcome<ByCycle> written_logs(const Context& context, const JsonValue& run) {
     const std::string target =
         fmt::format("/v1/runs/{}/files/{}", percent_encoded(run.text_of("id")),
                     percent_encoded(file.text_of("path")));
-    const auto answer =
-        TRY(expect_ok(context.client.send({.target = target}), context.client.url()));
+    const auto answer = TRY(context.send({.target = target}));
     sort_in(log_reader::read_logs(answer.body).logs, logs);
   }
   return logs;
@@ -147,12 +149,13 @@ Outcome<JsonValue> run_on_contacts(const Context& context, const ReplayOptions& 
     return Failure{ExitCode::LocalFile, options.contacts + ": is not JSON: [[X, Y, Z], null, …]"};
   const std::string body =
       fmt::format("{},\"contacts_mm\":{}}}", order.substr(0, order.size() - 1), contacts);
-  const auto answer = TRY(expect_ok(context.post_once("/v1/runs", body), context.client.url()));
-  return read_document(answer, context.client.url());
+  return context.document_of(TRY(context.post_once("/v1/runs", body)));
 }
 
-}  // namespace
-
+/// `replay PROGRAM LOG --contacts FILE`: runs the program on a machine whose probe finds the
+/// contacts of the file, and compares the logs it writes with LOG, by the digits LOG prints.
+/// Prints every result that differs. @errors LocalFile, Refused; ProgramFailed: the program did not
+/// complete, or a result differs or is missing.
 Outcome<ExitCode> run_replay(const Context& context, const ReplayOptions& options) {
   const auto logged = TRY(read_log(options.log));
   const auto run = TRY(run_on_contacts(context, options));
@@ -172,6 +175,24 @@ Outcome<ExitCode> run_replay(const Context& context, const ReplayOptions& option
                    fmt::format("run {} ended with status {}", run.text_of("id"), status)};
   }
   return comparison.differing() == 0 ? ExitCode::Good : ExitCode::ProgramFailed;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, Action& chosen) {
+  const auto [replay, options] = add_command(
+      app, "replay", "Run a program with the contacts of a real run and compare the probing logs",
+      chosen, run_replay);
+  replay->add_option("program", options->run.program, "Path on the control")->required();
+  replay->add_option("file", options->log, "Probing log of the machine")->required();
+  replay
+      ->add_option("--contacts", options->contacts,
+                   "JSON file with a contact for each probing move: [[X, Y, Z], null, …]")
+      ->required();
+  const auto setup = replay->add_option("--setup", options->run.setup, "Name of a stored setup")
+                         ->type_name("NAME");
+  replay->add_option("--setup-file", options->run.setup_file, "JSON file with a setup")
+      ->excludes(setup);
 }
 
 }  // namespace fitgauge::cli

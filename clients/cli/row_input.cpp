@@ -4,7 +4,6 @@
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/local_files.hpp"
-#include "cli/problem.hpp"
 #include "formats/dfq/measurement_csv.hpp"
 #include "formats/qif/qif.hpp"
 #include "formats/sheet/record_reader.hpp"
@@ -17,9 +16,9 @@ aqdef::LimitsOfClass limits_by(const Context& context) {
   return [&context](Length nominal, const std::string& name) -> Result<aqdef::SizeLimits> {
     const std::string target =
         "/v1/limits/" + percent_encoded(fmt::format("{} {}", format_mm(nominal), name));
-    const auto answer = expect_ok(context.client.send({.target = target}), context.client.url());
+    const auto answer = context.send({.target = target});
     if (!answer) return Error{ErrorCode::ClassUnknown, answer.error().message};
-    const auto document = read_document(*answer, context.client.url());
+    const auto document = context.document_of(*answer);
     if (!document) return Error{ErrorCode::ClassUnknown, document.error().message};
     const auto upper = parse_length_mm(document->text_of("upper_limit_mm"));
     const auto lower = parse_length_mm(document->text_of("lower_limit_mm"));

@@ -1,12 +1,19 @@
 #include "cli/record_commands.hpp"
 
 #include "base/text.hpp"
-#include "cli/json_object.hpp"
 #include "cli/local_files.hpp"
-#include "cli/problem.hpp"
 
 namespace fitgauge::cli {
 namespace {
+
+struct StatisticsOptions {
+  std::string figure;       ///< summary, anova, …, or uncertainty
+  std::string file;         ///< JSON, or a value a line; - is standard input
+  std::string lower{};      ///< of capability
+  std::string upper{};      ///< of capability
+  std::string reference{};  ///< of type1
+  std::string tolerance{};  ///< of type1
+};
 
 std::vector<std::string_view> values_of(std::string_view line) {
   constexpr std::string_view kBetween = " \t\r,;";
@@ -142,20 +149,26 @@ void print_violations(const Context& context, const JsonValue& document) {
   }
 }
 
-}  // namespace
-
+/// `fitgauge statistics summary values.txt`: prints figures that the service computes; nothing is
+/// stored. A file that begins with a brace is sent unchanged; in other files each line is a value,
+/// or a subgroup of values separated by blanks, tabs, commas or semicolons (for anova a group).
 Outcome<ExitCode> run_statistics(const Context& context, const StatisticsOptions& options) {
   const auto body = TRY(body_of(options));
   const std::string target = options.figure == "uncertainty" ? std::string("/v1/uncertainty")
                                                              : "/v1/statistics/" + options.figure;
-  const auto answer = expect_ok(
-      context.client.send(
-          {.method = "POST", .target = target, .content_type = "application/json", .body = body}),
-      context.client.url());
+  const auto answer = context.send(
+      {.method = "POST", .target = target, .content_type = "application/json", .body = body});
   return show(context, answer,
               [&](const JsonValue& document) { print_members(context, "", document); });
 }
 
+struct CapabilityQuery : RecordQuery {
+  std::string target_mm{};
+  std::string confidence{};
+  std::string subgroups{};  ///< use or ignore
+};
+
+/// `fitgauge capability`: the indices with their intervals, and whether the process is stable.
 Outcome<ExitCode> run_capability(const Context& context, const CapabilityQuery& query) {
   const auto found = TRY(get_document(context, record_target("/v1/measurements/capability", query,
                                                              {{"target_mm", query.target_mm},
@@ -185,6 +198,13 @@ Outcome<ExitCode> run_capability(const Context& context, const CapabilityQuery& 
   return ExitCode::Good;
 }
 
+struct ChartQuery : RecordQuery {
+  std::string kind{};
+  std::string rules{};      ///< 1,2,3,4
+  std::string subgroups{};  ///< use or ignore
+};
+
+/// `fitgauge chart`: centre and limits of a control chart, and each violation of its rules.
 Outcome<ExitCode> run_chart(const Context& context, const ChartQuery& query) {
   const auto found = TRY(get_document(context, record_target("/v1/measurements/chart", query,
                                                              {{"kind", query.kind},
@@ -202,6 +222,52 @@ Outcome<ExitCode> run_chart(const Context& context, const ChartQuery& query) {
   if (const std::string length = rounded(found, "average_run_length", 1); length != "-")
     context.print("a false alarm every {} points on average\n", length);
   return ExitCode::Good;
+}
+
+}  // namespace
+
+void add_statistics(CLI::App& app, Action& chosen) {
+  const auto [statistics, options] = add_command(
+      app, "statistics", "Compute statistics of the values in a file", chosen, run_statistics);
+  statistics
+      ->add_option("figure", options->figure,
+                   "Figure: summary, anova, capability, chart, type1, grr, pairing or uncertainty")
+      ->required()
+      ->check(CLI::IsMember(
+          {"summary", "anova", "capability", "chart", "type1", "grr", "pairing", "uncertainty"}));
+  statistics
+      ->add_option("file", options->file,
+                   "JSON file as in the HTTP API, or a text with one value on each line")
+      ->required();
+  statistics->add_option("--lower", options->lower, "Lower limit, for capability");
+  statistics->add_option("--upper", options->upper, "Upper limit, for capability");
+  statistics->add_option("--reference", options->reference, "Size of the master, for type1");
+  statistics->add_option("--tolerance", options->tolerance,
+                         "Tolerance of the characteristic, for type1");
+}
+
+void add_figures(CLI::App& app, Action& chosen) {
+  const std::string help = "use: by subgroup; ignore: single values (default: use)";
+  const auto [capability, indices] =
+      add_command(app, "capability", "Capability of stored measurements", chosen, run_capability);
+  add_filters(*capability, *indices);
+  capability->add_option("--target-mm", indices->target_mm,
+                         "Target of cpm (default: the middle of the limits)");
+  capability->add_option("--confidence", indices->confidence,
+                         "Confidence level of the intervals (default: 0.95)");
+  capability->add_option("--subgroups", indices->subgroups, help)
+      ->check(CLI::IsMember({"use", "ignore"}));
+
+  const auto [chart, query] =
+      add_command(app, "chart", "Control chart of stored measurements", chosen, run_chart);
+  add_filters(*chart, *query);
+  chart
+      ->add_option("--kind", query->kind,
+                   "Kind of chart (default: xbar_r with subgroups, else i_mr)")
+      ->check(CLI::IsMember({"i_mr", "xbar_r", "xbar_s", "ewma", "cusum"}));
+  chart->add_option("--rules", query->rules,
+                    "Western Electric rules to check, such as 1,2,3,4 (default: none)");
+  chart->add_option("--subgroups", query->subgroups, help)->check(CLI::IsMember({"use", "ignore"}));
 }
 
 }  // namespace fitgauge::cli

@@ -5,7 +5,7 @@
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"
-#include "cli/problem.hpp"
+#include "cli/registration.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -23,6 +23,12 @@ std::string joined(const JsonValue& document, std::initializer_list<std::string_
   }
   return text;
 }
+
+struct WatchOptions {
+  std::string source{};     ///< gauge, simulation or all
+  std::string after{};      ///< the id of the last event that is known
+  std::uint64_t count = 0;  ///< ends after this number; 0: never
+};
 
 /// Reads events until the service ends the stream.
 class Watch {
@@ -148,6 +154,10 @@ std::string format_event(const Event& event, const Terminal& terminal) {
   return fmt::format("{}  {}\n", event.type, event.data);
 }
 
+namespace {
+
+/// `fitgauge watch`: prints events as they happen. It reconnects and continues with the next event.
+/// @errors NoAnswer, Refused, KeyNeeded at the first connection.
 Outcome<ExitCode> run_watch(const Context& context, const WatchOptions& options) {
   static const std::regex kId(R"(m\d{1,19}r?\.e\d{1,19}(-[0-9a-f]+)?)");
   if (!options.after.empty() && !std::regex_match(options.after, kId)) {
@@ -158,6 +168,18 @@ Outcome<ExitCode> run_watch(const Context& context, const WatchOptions& options)
                     options.after)};
   }
   return Watch(context, options).run();
+}
+
+}  // namespace
+
+void add_watch(CLI::App& app, Action& chosen) {
+  const auto [watch, options] = add_command(
+      app, "watch", "Print measurements and ends of runs as they happen", chosen, run_watch);
+  watch
+      ->add_option("--source", options->source, "Source: gauge, simulation or all (default: gauge)")
+      ->check(CLI::IsMember({"gauge", "simulation", "all"}));
+  watch->add_option("--after", options->after, "Start after the event with this id");
+  watch->add_option("--count", options->count, "Stop after this number of events");
 }
 
 }  // namespace fitgauge::cli

@@ -39,18 +39,8 @@ class EventReader {
   std::string last_id_;
 };
 
-struct WatchOptions {
-  std::string source{};     ///< gauge, simulation or all
-  std::string after{};      ///< the id of the last event that is known
-  std::uint64_t count = 0;  ///< ends after this number; 0: never
-};
-
 /// A record in one line: time, id, size, value, verdict, and labels.
 std::string record_line(const JsonValue& record, const Terminal& terminal);
-
-/// `fitgauge watch`: prints events as they happen. It reconnects and continues with the next event.
-/// @errors NoAnswer, Refused, KeyNeeded at the first connection.
-Outcome<ExitCode> run_watch(const Context& context, const WatchOptions& options);
 
 /// One line for an event; empty if another event has the same content (a reject is recorded, too).
 std::string format_event(const Event& event, const Terminal& terminal);
