@@ -40,14 +40,6 @@ Heard hear(Connection& connection) {
   return heard;
 }
 
-ServerFigures read_figures(sql::Statement& figures) {
-  sql::Rows rows = figures.query();
-  rows.next();
-  return {.database_bytes = rows.get<std::int64_t>(0),
-          .standbys = rows.get<std::int64_t>(1),
-          .standby_behind_bytes = rows.get<std::optional<std::int64_t>>(2)};
-}
-
 /// Waits until one of the two is readable. @returns whether `wake_up` is.
 bool wait_for(int socket, int wake_up, Notifications::Clock::duration patience) {
   using std::chrono::milliseconds;
@@ -113,7 +105,7 @@ void Listener::listen(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     const auto now = Notifications::Clock::now();
     if (now >= look_at) {
-      told_(read_figures(figures));
+      told_(read_first<ServerFigures>(figures.query()));
       heard_(false);
       look_at = now + kBetweenFigures;
     }

@@ -7,18 +7,8 @@
 namespace fitgauge::store {
 namespace {
 
-using sql::Rows;
-
-Document read_document(const Rows& rows) {
-  require_sound(rows, 5, kDocuments);
-  return {.kind = rows.get<DocumentKind>(0),
-          .name = rows.get<std::string>(1),
-          .text = rows.get<std::string>(2),
-          .modified_at_ns = rows.get<std::int64_t>(3),
-          .caller = rows.get<std::optional<std::string>>(4)};
-}
-
 using sql::Blob;
+using sql::Rows;
 
 constexpr std::string_view kEntry =
     "r.path, r.revision, coalesce(length(r.content), 0), r.modified_at, r.caller";
@@ -27,49 +17,20 @@ constexpr int kContent = 5;  ///< the column after an entry's
 /// older ones.
 constexpr int kKeptRevisions = 20;
 
-FileEntry read_entry(const Rows& rows) {
-  return {.path = rows.get<std::string>(0),
-          .revision = rows.get<std::int64_t>(1),
-          .size = rows.get<std::int64_t>(2),
-          .modified_at_ns = rows.get<std::int64_t>(3),
-          .caller = rows.get<std::optional<std::string>>(4)};
-}
-
-std::optional<FileContent> read_file(Rows rows) {
-  if (!rows.next()) return std::nullopt;
-  require_sound(rows, kContent + 1, kFileRevisions);
-  return FileContent{read_entry(rows), std::string(rows.get<Blob>(kContent).bytes)};
-}
-
-std::vector<FileEntry> read_entries(Rows rows) {
-  std::vector<FileEntry> entries;
-  while (rows.next()) entries.push_back(read_entry(rows));
-  return entries;
-}
-
 std::vector<Note> read_notes(Rows rows) {
   std::vector<Note> notes;
   while (rows.next()) {
-    require_sound(rows, 8, kNotes);
-    require_sound(rows, 9, kNoteOrigins);
-    notes.push_back({.id = rows.get<std::int64_t>(0),
-                     .measurement = rows.get<std::int64_t>(1),
-                     .cause = rows.get<std::optional<std::string>>(2),
-                     .measure = rows.get<std::optional<std::string>>(3),
-                     .text = rows.get<std::optional<std::string>>(4),
-                     .operator_id = rows.get<std::optional<std::string>>(5),
-                     .caller = rows.get<std::optional<std::string>>(6),
-                     .received_at_ns = rows.get<std::int64_t>(7),
-                     .origin = rows.get<std::int64_t>(10),
-                     .number = rows.get<std::int64_t>(11)});
+    require_sound(rows, 10, kNotes);
+    require_sound(rows, 11, kNoteOrigins);
+    notes.push_back(row_of<Note>(rows));
   }
   return notes;
 }
 
 std::string select_notes(const sql::Connection& c, std::string_view where) {
   return fmt::format(
-      "SELECT id, {}, {}, CASE WHEN o.note IS NULL THEN 1 ELSE {} END, coalesce(o.origin, 0), "
-      "coalesce(o.number, 0) FROM notes n LEFT JOIN note_origins o ON o.note = n.id WHERE {}",
+      "SELECT id, {}, coalesce(o.origin, 0), coalesce(o.number, 0), {}, CASE WHEN o.note IS NULL "
+      "THEN 1 ELSE {} END FROM notes n LEFT JOIN note_origins o ON o.note = n.id WHERE {}",
       kNotes.columns, kNotes.is_sound(c, "n"), kNoteOrigins.is_sound(c, "o"), where);
 }
 
@@ -86,8 +47,7 @@ struct DocumentsStore::Statements {
 };
 
 DocumentsStore::DocumentsStore(sql::Connection& connection)
-    : statements_(std::make_unique<Statements>(connection)) {}
-DocumentsStore::~DocumentsStore() = default;
+    : statements_(std::make_shared<Statements>(connection)) {}
 
 bool DocumentsStore::put(const Document& document) {
   const bool is_new = !find(document.kind, document.name);
@@ -101,16 +61,11 @@ bool DocumentsStore::remove(DocumentKind kind, std::string_view name) {
 }
 
 std::optional<Document> DocumentsStore::find(DocumentKind kind, std::string_view name) const {
-  Rows rows = statements_->find.query(kind, name);
-  return rows.next() ? std::optional(read_document(rows)) : std::nullopt;
+  return read_first<Document>(statements_->find.query(kind, name), kDocuments);
 }
 
 std::vector<Document> DocumentsStore::list(DocumentKind kind) const {
-  std::vector<Document> documents;
-  for (Rows rows = statements_->list.query(kind); rows.next();) {
-    documents.push_back(read_document(rows));
-  }
-  return documents;
+  return read_all<Document>(statements_->list.query(kind), kDocuments);
 }
 
 struct FilesStore::Statements {
@@ -141,8 +96,7 @@ struct FilesStore::Statements {
 };
 
 FilesStore::FilesStore(sql::Connection& connection)
-    : statements_(std::make_unique<Statements>(connection)) {}
-FilesStore::~FilesStore() = default;
+    : statements_(std::make_shared<Statements>(connection)) {}
 
 FilesStore::PutOutcome FilesStore::put(const FileWrite& file) {
   // Deletes in steps: the pages of large files would fill the cache.
@@ -171,18 +125,20 @@ bool FilesStore::remove(std::string_view path, std::int64_t now_ns,
 
 std::optional<FileEntry> FilesStore::stat(std::string_view path) const {
   const std::string key = ascii_upper(path);
-  Rows rows = statements_->stat.query(key);
-  return rows.next() ? std::optional(read_entry(rows)) : std::nullopt;
+  return read_first<FileEntry>(statements_->stat.query(key));
 }
 
 std::optional<FileContent> FilesStore::find(std::string_view path) const {
   const std::string key = ascii_upper(path);
-  return read_file(statements_->find.query(key));
+  Rows rows = statements_->find.query(key);
+  if (!rows.next()) return std::nullopt;
+  require_sound(rows, kContent + 1, kFileRevisions);
+  return FileContent{row_of<FileEntry>(rows), std::string(rows.get<Blob>(kContent).bytes)};
 }
 
 std::vector<FileEntry> FilesStore::list(std::string_view prefix) const {
   const std::string key = ascii_upper(prefix);
-  return read_entries(statements_->list.query(key));
+  return read_all<FileEntry>(statements_->list.query(key));
 }
 
 struct NotesStore::Statements {
@@ -200,8 +156,7 @@ struct NotesStore::Statements {
 };
 
 NotesStore::NotesStore(sql::Connection& connection)
-    : statements_(std::make_unique<Statements>(connection)) {}
-NotesStore::~NotesStore() = default;
+    : statements_(std::make_shared<Statements>(connection)) {}
 
 std::int64_t NotesStore::append(const Note& note) {
   const auto id = statements_->insert.returning<std::int64_t>(
@@ -239,8 +194,7 @@ struct EventsStore::Statements {
 };
 
 EventsStore::EventsStore(sql::Connection& connection)
-    : statements_(std::make_unique<Statements>(connection)) {}
-EventsStore::~EventsStore() = default;
+    : statements_(std::make_shared<Statements>(connection)) {}
 
 std::int64_t EventsStore::append(std::string_view type, std::string_view payload,
                                  std::int64_t now_ns) {
@@ -248,21 +202,10 @@ std::int64_t EventsStore::append(std::string_view type, std::string_view payload
 }
 
 std::vector<Event> EventsStore::after(std::int64_t id, std::size_t limit) const {
-  std::vector<Event> events;
-  for (Rows rows = statements_->after.query(id, limit); rows.next();) {
-    events.push_back({.id = rows.get<std::int64_t>(0),
-                      .type = rows.get<std::string>(1),
-                      .payload = rows.get<std::string>(2),
-                      .created_at_ns = rows.get<std::int64_t>(3)});
-  }
-  return events;
+  return read_all<Event>(statements_->after.query(id, limit));
 }
 
-EventsStore::Kept EventsStore::kept() const {
-  Rows rows = statements_->kept.query();
-  rows.next();
-  return {.oldest = rows.get<std::int64_t>(0), .newest = rows.get<std::int64_t>(1)};
-}
+EventsStore::Kept EventsStore::kept() const { return *read_first<Kept>(statements_->kept.query()); }
 
 std::int64_t EventsStore::trim(std::int64_t keep, std::int64_t limit) {
   return statements_->trim.run_counting(keep, limit);

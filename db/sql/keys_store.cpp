@@ -16,20 +16,6 @@ std::string select_keys(std::string_view rest) {
       rest);
 }
 
-std::vector<ApiKey> read_keys(Rows rows) {
-  std::vector<ApiKey> keys;
-  while (rows.next()) {
-    keys.push_back({.id = rows.get<std::int64_t>(0),
-                    .name = rows.get<std::string>(1),
-                    .role = rows.get<Role>(2),
-                    .token_hash = rows.get<Digest>(3),
-                    .created_at_ns = rows.get<std::int64_t>(4),
-                    .revoked_at_ns = rows.get<std::optional<std::int64_t>>(5),
-                    .expires_at_ns = rows.get<std::optional<std::int64_t>>(6)});
-  }
-  return keys;
-}
-
 }  // namespace
 
 using sql::Blob;
@@ -60,8 +46,7 @@ struct IdempotencyStore::Statements {
 
 IdempotencyStore::IdempotencyStore(sql::Connection& connection, const Clock& clock,
                                    std::chrono::hours retention)
-    : statements_(std::make_unique<Statements>(connection, clock, retention)) {}
-IdempotencyStore::~IdempotencyStore() = default;
+    : statements_(std::make_shared<Statements>(connection, clock, retention)) {}
 
 Result<std::optional<StoredAnswer>> IdempotencyStore::find(const IdempotentRequest& request) const {
   Rows rows = statements_->find.query(request.key, request.caller, request.method, request.path);
@@ -149,8 +134,7 @@ const ApiKey* KeyRing::find(std::string_view token) const {
 }
 
 const ApiKey* KeyRing::find(std::int64_t id) const {
-  const auto found =
-      std::find_if(keys_.begin(), keys_.end(), [id](const ApiKey& key) { return key.id == id; });
+  const auto found = std::ranges::find(keys_, id, &ApiKey::id);
   return found == keys_.end() ? nullptr : &*found;
 }
 
@@ -179,8 +163,7 @@ struct KeysStore::Statements {
 };
 
 KeysStore::KeysStore(sql::Connection& connection)
-    : statements_(std::make_unique<Statements>(connection)) {}
-KeysStore::~KeysStore() = default;
+    : statements_(std::make_shared<Statements>(connection)) {}
 
 Result<ApiKey> KeysStore::create(std::string_view name, Role role, std::string_view token,
                                  std::int64_t now_ns, std::optional<std::int64_t> expires_at_ns) {
@@ -217,8 +200,7 @@ Result<ApiKey> KeysStore::create(std::string_view name, Role role, std::string_v
 }
 
 std::optional<ApiKey> KeysStore::newest(std::string_view name) const {
-  auto found = read_keys(statements_->newest.query(name));
-  return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
+  return read_first<ApiKey>(statements_->newest.query(name));
 }
 
 bool KeysStore::receive(std::string_view name, Role role, const Digest& token_hash,
@@ -230,17 +212,15 @@ bool KeysStore::receive(std::string_view name, Role role, const Digest& token_ha
 }
 
 Result<void> KeysStore::revoke(std::string_view name, std::int64_t now_ns) {
-  std::optional<std::int64_t> id;
-  for (Rows rows = statements_->revoke.query(name, now_ns); rows.next();) {
-    id = rows.get<std::int64_t>(0);
-  }
-  if (!id) return Error{ErrorCode::NotFound, fmt::format("valid key not found: '{}'", name)};
-  statements_->seal.renew(*id);
+  const auto ids = read_all<std::int64_t>(statements_->revoke.query(name, now_ns));
+  if (ids.empty())
+    return Error{ErrorCode::NotFound, fmt::format("valid key not found: '{}'", name)};
+  statements_->seal.renew(ids.back());
   return {};
 }
 
-std::vector<ApiKey> KeysStore::list() const { return read_keys(statements_->all.query()); }
+std::vector<ApiKey> KeysStore::list() const { return read_all<ApiKey>(statements_->all.query()); }
 
-KeyRing KeysStore::ring() const { return KeyRing(read_keys(statements_->valid.query())); }
+KeyRing KeysStore::ring() const { return KeyRing(read_all<ApiKey>(statements_->valid.query())); }
 
 }  // namespace fitgauge::store

@@ -121,9 +121,8 @@ struct MeasurementsStore::Statements {
   /// If two folders continue one history, their rows would get the same ids.
   Result<void> require_one_history() {
     if (connection.dialect().is_shared) return {};  // no folder, and nothing is forwarded from it
-    Rows rows = forked.query();
-    if (!rows.next()) return {};
-    return Error{ErrorCode::LogForked, rows.get<std::string>(0)};
+    auto why = read_first<std::string>(forked.query());
+    return why ? Error{ErrorCode::LogForked, *std::move(why)} : Result<void>();
   }
 
   std::int64_t log_size() {
@@ -171,15 +170,13 @@ struct MeasurementsStore::Statements {
   }
 
   std::optional<std::int64_t> corrected_by(std::int64_t id) {
-    Rows rows = correction.query(id);
-    return rows.next() ? std::optional(rows.get<std::int64_t>(0)) : std::nullopt;
+    return read_first<std::int64_t>(correction.query(id));
   }
 
   /// Returns the current correction of a row: its correction, or a rival of that.
   std::optional<std::int64_t> replaced_by(std::int64_t id) {
     if (const auto newer = corrected_by(id)) return newer;
-    std::optional<std::int64_t> target;
-    if (Rows rows = lost_target.query(id); rows.next()) target = rows.get<std::int64_t>(0);
+    const auto target = read_first<std::int64_t>(lost_target.query(id));
     return target ? corrected_by(*target) : std::nullopt;
   }
 
@@ -194,17 +191,12 @@ struct MeasurementsStore::Statements {
 };
 
 MeasurementsStore::MeasurementsStore(sql::Connection& connection)
-    : statements_(std::make_unique<Statements>(connection)) {}
-MeasurementsStore::~MeasurementsStore() = default;
+    : statements_(std::make_shared<Statements>(connection)) {}
 
 Result<void> MeasurementsStore::append(std::span<const MeasurementRow> rows) {
-  if (const Result<void> alone = statements_->require_one_history(); !alone) return alone;
+  TRY(statements_->require_one_history());
   for (const MeasurementRow& row : rows) {
-    if (row.correction_of) {
-      if (Result<void> open = statements_->require_current(*row.correction_of); !open) {
-        return open.error();
-      }
-    }
+    if (row.correction_of) TRY(statements_->require_current(*row.correction_of));
     if (row.table_revision) statements_->require_revision(*row.table_revision);
   }
   if (!statements_->table.own_rows() && statements_->holds_others()) {
@@ -231,7 +223,7 @@ void MeasurementsStore::append_forwarded(std::span<const MeasurementRow> rows) {
 std::optional<std::int64_t> MeasurementsStore::find_forwarded(std::int64_t origin,
                                                               std::int64_t number) const {
   for (Statement* by : {&statements_->by_number, &statements_->by_place}) {
-    if (Rows rows = by->query(origin, number); rows.next()) return rows.get<std::int64_t>(0);
+    if (const auto id = read_first<std::int64_t>(by->query(origin, number))) return id;
   }
   return std::nullopt;
 }

@@ -16,20 +16,7 @@ std::string select(const sql::Connection& c, const SealedTable& table, std::stri
 
 constexpr std::string_view kOriginColumns = "number, digits, first_row, size, checkpoint";
 
-OriginsStore::Origin read_origin(const Rows& rows) {
-  require_sound(rows, 5, kOrigins);
-  return {.number = rows.get<std::int64_t>(0),
-          .digits = rows.get<std::string>(1),
-          .first_row = rows.get<std::optional<std::int64_t>>(2),
-          .size = rows.get<std::int64_t>(3),
-          .checkpoint = rows.get<std::string>(4)};
-}
-
-std::optional<OriginsStore::Origin> read_one(Rows rows) {
-  return rows.next() ? std::optional(read_origin(rows)) : std::nullopt;
-}
-
-constexpr std::string_view kBeforeTheFirst = "0";
+constexpr const char* kBeforeTheFirst = "0";
 constexpr std::string_view kPositionColumn = "number || '-' || lower(hex(tag))";
 
 }  // namespace
@@ -64,21 +51,18 @@ struct OriginsStore::Statements {
 };
 
 OriginsStore::OriginsStore(sql::Connection& connection)
-    : statements_(std::make_unique<Statements>(connection)) {}
-OriginsStore::~OriginsStore() = default;
+    : statements_(std::make_shared<Statements>(connection)) {}
 
 std::vector<OriginsStore::Origin> OriginsStore::list() const {
-  std::vector<Origin> origins;
-  for (Rows rows = statements_->list.query(); rows.next();) origins.push_back(read_origin(rows));
-  return origins;
+  return read_all<Origin>(statements_->list.query(), kOrigins);
 }
 
 std::optional<OriginsStore::Origin> OriginsStore::find(std::string_view digits) const {
-  return read_one(statements_->by_digits.query(digits));
+  return read_first<Origin>(statements_->by_digits.query(digits), kOrigins);
 }
 
 std::optional<OriginsStore::Origin> OriginsStore::find(std::int64_t number) const {
-  return read_one(statements_->by_number.query(number));
+  return read_first<Origin>(statements_->by_number.query(number), kOrigins);
 }
 
 std::int64_t OriginsStore::add(std::string_view digits) {
@@ -92,12 +76,7 @@ void OriginsStore::set_head(const Origin& origin) {
 }
 
 std::vector<std::string> OriginsStore::keys(std::int64_t origin) const {
-  std::vector<std::string> keys;
-  for (Rows rows = statements_->keys.query(origin); rows.next();) {
-    require_sound(rows, 1, kOriginKeys);
-    keys.push_back(rows.get<std::string>(0));
-  }
-  return keys;
+  return read_all<std::string>(statements_->keys.query(origin), kOriginKeys);
 }
 
 void OriginsStore::add_key(std::int64_t origin, std::string_view vkey, std::int64_t now_ns) {
@@ -105,10 +84,7 @@ void OriginsStore::add_key(std::int64_t origin, std::string_view vkey, std::int6
 }
 
 std::optional<OriginsStore::Base> OriginsStore::base(std::int64_t origin) const {
-  Rows rows = statements_->base.query(origin);
-  if (!rows.next()) return std::nullopt;
-  require_sound(rows, 2, kOriginBases);
-  return Base{.origin = rows.get<std::int64_t>(0), .size = rows.get<std::int64_t>(1)};
+  return read_first<Base>(statements_->base.query(origin), kOriginBases);
 }
 
 bool OriginsStore::is_base(std::int64_t origin) const {
@@ -138,23 +114,16 @@ bool OriginsStore::add_fork(std::int64_t origin, std::string_view checkpoint, st
 }
 
 std::vector<OriginsStore::Revision> OriginsStore::revisions() const {
-  std::vector<Revision> revisions;
-  for (Rows rows = statements_->revisions.query(); rows.next();) {
-    revisions.push_back({.number = rows.get<std::int64_t>(0), .id = rows.get<std::string>(1)});
-  }
-  return revisions;
+  return read_all<Revision>(statements_->revisions.query());
 }
 
 std::int64_t OriginsStore::add_revision(std::string_view id) {
-  if (Rows rows = statements_->revision.query(id); rows.next()) return rows.get<std::int64_t>(0);
+  if (const auto known = read_first<std::int64_t>(statements_->revision.query(id))) return *known;
   return statements_->add_revision.returning<std::int64_t>(id);
 }
 
 std::optional<OriginsStore::Forwarded> OriginsStore::forwarded() const {
-  Rows rows = statements_->forwarded.query();
-  if (!rows.next()) return std::nullopt;
-  require_sound(rows, 2, kForwarding);
-  return Forwarded{.centre = rows.get<std::string>(0), .size = rows.get<std::int64_t>(1)};
+  return read_first<Forwarded>(statements_->forwarded.query(), kForwarding);
 }
 
 void OriginsStore::set_forwarded(const Forwarded& forwarded) {
@@ -181,28 +150,19 @@ struct RevisionsStore::Statements {
 };
 
 RevisionsStore::RevisionsStore(sql::Connection& connection)
-    : statements_(std::make_unique<Statements>(connection)) {}
-RevisionsStore::~RevisionsStore() = default;
+    : statements_(std::make_shared<Statements>(connection)) {}
 
 std::vector<RevisionsStore::Revision> RevisionsStore::list(std::int64_t after, std::int64_t station,
                                                            std::int64_t limit) const {
-  std::vector<Revision> revisions;
-  for (Rows rows = statements_->list.query(after, station, limit); rows.next();) {
-    revisions.push_back({.number = rows.get<std::int64_t>(0),
-                         .kind = rows.get<RevisionKind>(1),
-                         .name = rows.get<std::string>(2)});
-  }
-  return revisions;
+  return read_all<Revision>(statements_->list.query(after, station, limit));
 }
 
 std::string RevisionsStore::newest_position() const {
-  Rows rows = statements_->newest.query();
-  return rows.next() ? rows.get<std::string>(0) : std::string(kBeforeTheFirst);
+  return read_first<std::string>(statements_->newest.query()).value_or(kBeforeTheFirst);
 }
 
 std::string RevisionsStore::position(std::int64_t number) const {
-  Rows rows = statements_->position.query(number);
-  return rows.next() ? rows.get<std::string>(0) : std::string(kBeforeTheFirst);
+  return read_first<std::string>(statements_->position.query(number)).value_or(kBeforeTheFirst);
 }
 
 std::optional<std::int64_t> RevisionsStore::number_of(std::string_view text) const {
@@ -213,10 +173,7 @@ std::optional<std::int64_t> RevisionsStore::number_of(std::string_view text) con
 
 std::optional<RevisionsStore::Received> RevisionsStore::received(RevisionKind kind,
                                                                  std::string_view name) const {
-  Rows rows = statements_->received.query(kind, name);
-  if (!rows.next()) return std::nullopt;
-  require_sound(rows, 2, kReceived);
-  return Received{.number = rows.get<std::int64_t>(0), .digest = rows.get<Digest>(1)};
+  return read_first<Received>(statements_->received.query(kind, name), kReceived);
 }
 
 void RevisionsStore::set_received(RevisionKind kind, std::string_view name,

@@ -14,18 +14,6 @@ using sql::Rows;
 constexpr std::string_view kRun =
     "id, status, program, request, result, created_at, finished_at, caller";
 
-Run read_run(const Rows& rows) {
-  require_sound(rows, 8, kRuns);
-  return {.id = rows.get<std::int64_t>(0),
-          .status = rows.get<RunStatus>(1),
-          .program = rows.get<std::string>(2),
-          .request = rows.get<std::string>(3),
-          .result = rows.get<std::string>(4),
-          .created_at_ns = rows.get<std::int64_t>(5),
-          .finished_at_ns = rows.get<std::optional<std::int64_t>>(6),
-          .caller = rows.get<std::optional<std::string>>(7)};
-}
-
 /// `TNC:\nc_prog\LOG.TXT` is called `LOG.TXT`.
 std::string_view name_of(std::string_view path) {
   return path.substr(path.find_last_of("\\/:") + 1);
@@ -75,9 +63,9 @@ struct RunsStore::Statements {
                        "(SELECT id FROM runs WHERE finished_at < ? LIMIT ?) RETURNING 1"};
 
   Result<void> require_unfinished(std::int64_t id) {
-    Rows rows = status.query(id);
-    if (!rows.next()) return Error{ErrorCode::RunUnknown, fmt::format("run not found: {}", id)};
-    if (is_finished(rows.get<RunStatus>(0))) {
+    const auto found = read_first<RunStatus>(status.query(id));
+    if (!found) return Error{ErrorCode::RunUnknown, fmt::format("run not found: {}", id)};
+    if (is_finished(*found)) {
       return Error{ErrorCode::RunFinished, fmt::format("run {} has finished", id)};
     }
     return {};
@@ -85,8 +73,7 @@ struct RunsStore::Statements {
 };
 
 RunsStore::RunsStore(sql::Connection& connection)
-    : statements_(std::make_unique<Statements>(connection)) {}
-RunsStore::~RunsStore() = default;
+    : statements_(std::make_shared<Statements>(connection)) {}
 
 std::int64_t RunsStore::create(const Run& run) {
   const std::string program_key = ascii_upper(run.program);
@@ -96,14 +83,14 @@ std::int64_t RunsStore::create(const Run& run) {
 }
 
 Result<void> RunsStore::start(std::int64_t id) {
-  if (Result<void> open = statements_->require_unfinished(id); !open) return open;
+  TRY(statements_->require_unfinished(id));
   statements_->start.run(id);
   statements_->seal.renew(id);
   return {};
 }
 
 Result<void> RunsStore::finish(std::int64_t id, const RunOutcome& outcome, std::int64_t now_ns) {
-  if (Result<void> open = statements_->require_unfinished(id); !open) return open;
+  TRY(statements_->require_unfinished(id));
   statements_->finish.run(id, outcome.status, outcome.result, now_ns);
   statements_->seal.renew(id);
   statements_->insert_trace.run(id, Blob{outcome.trace});
@@ -115,28 +102,22 @@ Result<void> RunsStore::finish(std::int64_t id, const RunOutcome& outcome, std::
 }
 
 Result<void> RunsStore::ask_to_cancel(std::int64_t id) {
-  if (Result<void> open = statements_->require_unfinished(id); !open) return open;
+  TRY(statements_->require_unfinished(id));
   statements_->ask_to_cancel.run(id);
   statements_->seal.renew(id);
   return {};
 }
 
 std::vector<std::int64_t> RunsStore::to_be_cancelled() const {
-  std::vector<std::int64_t> ids;
-  for (Rows rows = statements_->to_be_cancelled.query(); rows.next();) {
-    ids.push_back(rows.get<std::int64_t>(0));
-  }
-  return ids;
+  return read_all<std::int64_t>(statements_->to_be_cancelled.query());
 }
 
 std::optional<RunStatus> RunsStore::status(std::int64_t id) const {
-  Rows rows = statements_->status.query(id);
-  return rows.next() ? std::optional(rows.get<RunStatus>(0)) : std::nullopt;
+  return read_first<RunStatus>(statements_->status.query(id));
 }
 
 std::optional<Run> RunsStore::find(std::int64_t id) const {
-  Rows rows = statements_->find.query(id);
-  return rows.next() ? std::optional(read_run(rows)) : std::nullopt;
+  return read_first<Run>(statements_->find.query(id), kRuns);
 }
 
 std::optional<std::string> RunsStore::trace(std::int64_t id) const {
@@ -171,17 +152,13 @@ RunsStore::Page RunsStore::list(const RunFilter& filter, std::optional<std::int6
       page.next = page.runs.back().id;
       break;
     }
-    page.runs.push_back(read_run(rows));
+    page.runs.push_back(row_of<Run>(rows, kRuns));
   }
   return page;
 }
 
 std::vector<Run> RunsStore::abandoned(std::size_t limit) const {
-  std::vector<Run> runs;
-  for (Rows rows = statements_->abandoned.query(limit); rows.next();) {
-    runs.push_back(read_run(rows));
-  }
-  return runs;
+  return read_all<Run>(statements_->abandoned.query(limit), kRuns);
 }
 
 bool RunsStore::take_over(std::int64_t id) {

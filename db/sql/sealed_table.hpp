@@ -108,4 +108,14 @@ class Seal {
 /// @throws StorageFailure (StorageCorrupt) unless the column is 1.
 void require_sound(const sql::Rows& rows, int column, const SealedTable& table);
 
+/// A value or an aggregate, and in the column after it whether the row is sound.
+/// @throws as require_sound()
+template <class T>
+T row_of(const sql::Rows& rows, const SealedTable& table) {
+  int columns = 1;
+  if constexpr (std::is_aggregate_v<T>) columns = static_cast<int>(boost::pfr::tuple_size_v<T>);
+  require_sound(rows, columns, table);
+  return sql::row_of<T>(rows);
+}
+
 }  // namespace fitgauge::store

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <boost/pfr.hpp>
+
 #include "base/digest.hpp"
 #include "db/sql/connection.hpp"
 
 namespace fitgauge::store::sql {
 
-class Connection;
 class Rows;
 
 /// Bytes that are bound and read as a BLOB.
@@ -17,12 +18,16 @@ template <class T>
 inline constexpr bool kIsOptional = false;
 template <class T>
 inline constexpr bool kIsOptional<std::optional<T>> = true;
+template <class T>
+inline constexpr bool kIsBytes = false;
+template <std::size_t size>
+inline constexpr bool kIsBytes<std::array<std::uint8_t, size>> = true;
 
 template <class T>
 constexpr Kind kind_of_value() {
   if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) {
     return Kind::Integer;
-  } else if constexpr (std::is_same_v<T, Digest> || std::is_same_v<T, Blob>) {
+  } else if constexpr (kIsBytes<T> || std::is_same_v<T, Blob>) {
     return Kind::Bytes;
   } else {
     return Kind::Text;
@@ -40,7 +45,7 @@ Code code_of(std::int64_t stored) {
   return static_cast<Code>(stored);
 }
 
-/// Binds an integer, enumeration, text, Digest, Blob, or an optional of these.
+/// Binds an integer, enumeration, text, array of bytes, Blob, or an optional of these.
 template <class Statement, class T>
 void bind_value(Statement& statement, int index, const T& value) {
   if constexpr (kIsOptional<T>) {
@@ -49,7 +54,7 @@ void bind_value(Statement& statement, int index, const T& value) {
           : statement.bind_null(index, kind_of_value<Value>());
   } else if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) {
     statement.bind_integer(index, static_cast<std::int64_t>(value));
-  } else if constexpr (std::is_same_v<T, Digest>) {
+  } else if constexpr (kIsBytes<T>) {
     statement.bind_blob(index, {reinterpret_cast<const char*>(value.data()), value.size()});
   } else if constexpr (std::is_same_v<T, Blob>) {
     statement.bind_blob(index, value.bytes);
@@ -123,8 +128,8 @@ class Rows {
   bool next() { return prepared_->step(); }
   int columns() const { return prepared_->columns(); }
 
-  /// A column from 0 on: integer, enumeration, text, Digest, Blob, or an optional of these. Views
-  /// are valid until the next step.
+  /// A column from 0 on: integer, enumeration, text, array of bytes, Blob, or an optional of these.
+  /// Views are valid until the next step.
   template <class T>
   T get(int column) const {
     if constexpr (kIsOptional<T>) {
@@ -134,11 +139,11 @@ class Rows {
       return code_of<T>(prepared_->integer(column));
     } else if constexpr (std::is_integral_v<T>) {
       return static_cast<T>(prepared_->integer(column));
-    } else if constexpr (std::is_same_v<T, Digest>) {
-      Digest digest{};
+    } else if constexpr (kIsBytes<T>) {
+      T value{};
       const std::string_view bytes = prepared_->blob(column);
-      std::copy_n(bytes.begin(), std::min(bytes.size(), digest.size()), digest.begin());
-      return digest;
+      std::copy_n(bytes.begin(), std::min(bytes.size(), value.size()), value.begin());
+      return value;
     } else if constexpr (std::is_same_v<T, Blob>) {
       return Blob{prepared_->blob(column)};
     } else {
@@ -149,6 +154,35 @@ class Rows {
  private:
   Prepared* prepared_;
 };
+
+/// The first column, or an aggregate whose members are the columns in their order.
+template <class T>
+T row_of(const Rows& rows) {
+  if constexpr (std::is_aggregate_v<T>) {
+    T row{};
+    int column = 0;
+    boost::pfr::for_each_field(row, [&](auto& member) {
+      member = rows.get<std::remove_reference_t<decltype(member)>>(column++);
+    });
+    return row;
+  } else {
+    return rows.get<T>(0);
+  }
+}
+
+/// All rows by row_of(). @param table of sealed rows
+template <class T>
+std::vector<T> read_all(Rows rows, const auto&... table) {
+  std::vector<T> all;
+  while (rows.next()) all.push_back(row_of<T>(rows, table...));
+  return all;
+}
+
+/// The first row by row_of(), if there is one.
+template <class T>
+std::optional<T> read_first(Rows rows, const auto&... table) {
+  return rows.next() ? std::optional(row_of<T>(rows, table...)) : std::nullopt;
+}
 
 template <class... Values>
 void Statement::run(const Values&... values) {

@@ -10,13 +10,12 @@ namespace {
 using sql::Rows;
 
 bool is_sorted(const TableContent& content) {
-  return std::is_sorted(content.cells.begin(), content.cells.end()) &&
-         std::is_sorted(content.custom.begin(), content.custom.end());
+  return std::ranges::is_sorted(content.cells) && std::ranges::is_sorted(content.custom);
 }
 
 TableContent sorted(TableContent content) {
-  std::sort(content.cells.begin(), content.cells.end());
-  std::sort(content.custom.begin(), content.custom.end());
+  std::ranges::sort(content.cells);
+  std::ranges::sort(content.custom);
   return content;
 }
 
@@ -49,23 +48,17 @@ Error invalid(const Cell& cell) {
 constexpr std::size_t kShownDigits = 8;
 
 TableRevision read_revision(const Rows& rows) {
-  TableRevision revision{.number = rows.get<std::int64_t>(0),
-                         .id = {},
-                         .digest = rows.get<Digest>(1),
-                         .source = rows.get<std::string>(2),
-                         .created_at_ns = rows.get<std::int64_t>(3),
-                         .parent = rows.get<std::optional<std::int64_t>>(4),
-                         .caller = rows.get<std::optional<std::string>>(5)};
-  const auto given = rows.get<std::optional<std::string>>(6);
-  revision.id =
-      given.value_or(fmt::format("{}-{}", revision.number, shown_digits(revision.digest)));
+  auto revision = row_of<TableRevision>(rows);
+  if (revision.id.empty()) {
+    revision.id = fmt::format("{}-{}", revision.number, shown_digits(revision.digest));
+  }
   return revision;
 }
 
 std::string select_revision(std::string_view rest) {
   return fmt::format(
-      "SELECT number, digest, source, created_at, parent, caller, (SELECT id FROM "
-      "table_revision_ids WHERE revision = number) FROM table_revisions {}",
+      "SELECT number, coalesce((SELECT id FROM table_revision_ids WHERE revision = number), ''), "
+      "digest, source, created_at, parent, caller FROM table_revisions {}",
       rest);
 }
 
@@ -117,21 +110,8 @@ struct TablesStore::Statements {
   std::optional<LoadedTables> load(std::optional<TableRevision> revision) {
     if (!revision) return std::nullopt;
     LoadedTables loaded{.revision = *std::move(revision), .content = {}, .computed = {}};
-    for (Rows rows = cells.query(loaded.revision.number); rows.next();) {
-      loaded.content.cells.push_back({.table = rows.get<std::string>(0),
-                                      .column = rows.get<std::string>(1),
-                                      .over_nm = rows.get<std::int64_t>(2),
-                                      .up_to_nm = rows.get<std::int64_t>(3),
-                                      .value_nm = rows.get<std::optional<std::int64_t>>(4)});
-    }
-    for (Rows rows = custom.query(loaded.revision.number); rows.next();) {
-      loaded.content.custom.push_back({.table = rows.get<std::string>(0),
-                                       .column = rows.get<std::string>(1),
-                                       .over_nm = rows.get<std::int64_t>(2),
-                                       .up_to_nm = rows.get<std::int64_t>(3),
-                                       .upper_nm = rows.get<std::int64_t>(4),
-                                       .lower_nm = rows.get<std::int64_t>(5)});
-    }
+    loaded.content = {read_all<TableCell>(cells.query(loaded.revision.number)),
+                      read_all<CustomCell>(custom.query(loaded.revision.number))};
     loaded.computed = digest_of(loaded.content);
     return loaded;
   }
@@ -139,7 +119,7 @@ struct TablesStore::Statements {
   /// The set with exactly these cells, stored now if it was not.
   std::int64_t set_of(const std::vector<TableCell>& list) {
     const Digest digest = digest_of({.cells = list, .custom = {}});
-    if (Rows rows = set_by_digest.query(digest); rows.next()) return rows.get<std::int64_t>(0);
+    if (const auto known = read_first<std::int64_t>(set_by_digest.query(digest))) return *known;
     const auto set = insert_set.returning<std::int64_t>(digest);
     for (const TableCell& cell : list) {
       insert_cell.run(set, cell.table, cell.column, cell.over_nm, cell.up_to_nm, cell.value_nm);
@@ -166,8 +146,7 @@ Digest digest_of(const TableContent& content) {
 }
 
 TablesStore::TablesStore(sql::Connection& connection)
-    : statements_(std::make_unique<Statements>(connection)) {}
-TablesStore::~TablesStore() = default;
+    : statements_(std::make_shared<Statements>(connection)) {}
 
 Result<TableRevision> TablesStore::import(const TableImport& tables, std::int64_t now_ns) {
   const std::optional<TableRevision> newest = statements_->one(statements_->newest);
@@ -206,9 +185,8 @@ std::optional<LoadedTables> TablesStore::load(std::string_view id) const {
   if (auto given = statements_->load(statements_->one(statements_->by_given_id, id))) return given;
   std::int64_t number = 0;
   std::from_chars(id.data(), id.data() + id.size(), number);
-  std::optional<LoadedTables> loaded = load(number);
-  if (loaded && loaded->revision.id != id) loaded.reset();
-  return loaded;
+  auto loaded = load(number);
+  return loaded && loaded->revision.id == id ? loaded : std::nullopt;
 }
 
 Digest TablesStore::compute_digest(std::int64_t number) const {

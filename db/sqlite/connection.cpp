@@ -184,15 +184,11 @@ void Connection::execute(const std::string& sql) {
 }
 
 std::int64_t Connection::query_integer(const std::string& sql) {
-  sql::Statement statement(*this, sql);
-  sql::Rows rows = statement.query();
-  return rows.next() ? rows.get<std::int64_t>(0) : 0;
+  return read_first<std::int64_t>(sql::Statement(*this, sql).query()).value_or(0);
 }
 
 std::string Connection::query_text(const std::string& sql) {
-  sql::Statement statement(*this, sql);
-  sql::Rows rows = statement.query();
-  return rows.next() ? rows.get<std::string>(0) : std::string();
+  return read_first<std::string>(sql::Statement(*this, sql).query()).value_or("");
 }
 
 void Connection::rollback() noexcept {

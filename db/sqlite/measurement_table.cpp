@@ -33,8 +33,7 @@ MeasurementTable::MeasurementTable(Connection& connection)
       newest_(connection, "SELECT id FROM measurements ORDER BY id DESC LIMIT 1") {}
 
 std::int64_t MeasurementTable::last_id() {
-  sql::Rows rows = newest_.query();
-  return rows.next() ? rows.get<std::int64_t>(0) : 0;
+  return read_first<std::int64_t>(newest_.query()).value_or(0);
 }
 
 void MeasurementTable::append(std::span<const MeasurementRow> rows) {

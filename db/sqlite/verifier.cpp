@@ -17,9 +17,7 @@ std::vector<std::string> schema_of(sqlite::Connection& connection) {
   sql::Statement objects(connection,
                          "SELECT type || ' ' || name || ': ' || coalesce(sql, '') "
                          "FROM sqlite_schema WHERE name NOT LIKE 'sqlite_stat%' ORDER BY 1");
-  std::vector<std::string> schema;
-  for (sql::Rows rows = objects.query(); rows.next();) schema.push_back(rows.get<std::string>(0));
-  return schema;
+  return read_all<std::string>(objects.query());
 }
 
 }  // namespace

@@ -33,7 +33,6 @@ struct Document {
 class DocumentsStore {
  public:
   explicit DocumentsStore(sql::Connection& connection);
-  ~DocumentsStore();
 
   bool put(const Document& document);  ///< @returns whether it is new
   bool remove(DocumentKind kind, std::string_view name);
@@ -42,7 +41,7 @@ class DocumentsStore {
 
  private:
   struct Statements;
-  std::unique_ptr<Statements> statements_;
+  std::shared_ptr<Statements> statements_;
 };
 
 /// A file of the control's disk without its content.
@@ -73,7 +72,6 @@ struct FileWrite {
 class FilesStore {
  public:
   explicit FilesStore(sql::Connection& connection);
-  ~FilesStore();
 
   struct PutOutcome {
     bool created = false;  ///< false: an existing file was replaced
@@ -90,7 +88,7 @@ class FilesStore {
 
  private:
   struct Statements;
-  std::unique_ptr<Statements> statements_;
+  std::shared_ptr<Statements> statements_;
 };
 
 /// A note of a person about a measurement, its cause or an action; at least one of the texts.
@@ -112,7 +110,6 @@ struct Note {
 class NotesStore {
  public:
   explicit NotesStore(sql::Connection& connection);
-  ~NotesStore();
 
   std::int64_t append(const Note& note);                   ///< @returns its id
   std::vector<Note> list(std::int64_t measurement) const;  ///< oldest first
@@ -125,7 +122,7 @@ class NotesStore {
 
  private:
   struct Statements;
-  std::unique_ptr<Statements> statements_;
+  std::shared_ptr<Statements> statements_;
 };
 
 struct Event {
@@ -139,7 +136,6 @@ struct Event {
 class EventsStore {
  public:
   explicit EventsStore(sql::Connection& connection);
-  ~EventsStore();
 
   std::int64_t append(std::string_view type, std::string_view payload, std::int64_t now_ns);
 
@@ -157,7 +153,7 @@ class EventsStore {
 
  private:
   struct Statements;
-  std::unique_ptr<Statements> statements_;
+  std::shared_ptr<Statements> statements_;
 };
 
 }  // namespace fitgauge::store

@@ -34,7 +34,6 @@ struct StoredAnswer {
 class IdempotencyStore {
  public:
   IdempotencyStore(sql::Connection& connection, const Clock& clock, std::chrono::hours retention);
-  ~IdempotencyStore();
 
   /// Returns the stored response; none if the key is new. Called before the body is parsed, so that
   /// a repeat gets the same response in any case.
@@ -70,7 +69,7 @@ class IdempotencyStore {
 
  private:
   struct Statements;
-  std::unique_ptr<Statements> statements_;
+  std::shared_ptr<Statements> statements_;
 };
 
 /// Rights of a caller. An operator has all rights of a viewer, an administrator all rights; a
@@ -114,7 +113,6 @@ class KeyRing {
 class KeysStore {
  public:
   explicit KeysStore(sql::Connection& connection);
-  ~KeysStore();
 
   /// Stores the hash of `token`, from new_token or with at least 16 characters of an
   /// administrator. A token that was replaced under this name and role is valid again.
@@ -139,7 +137,7 @@ class KeysStore {
 
  private:
   struct Statements;
-  std::unique_ptr<Statements> statements_;
+  std::shared_ptr<Statements> statements_;
 };
 
 }  // namespace fitgauge::store

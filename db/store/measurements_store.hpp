@@ -15,7 +15,6 @@ class Connection;
 class MeasurementsStore {
  public:
   explicit MeasurementsStore(sql::Connection& connection);
-  ~MeasurementsStore();
 
   /// Appends rows, which have their hash and the ids from last_id() + 1 on. `correction_of` must
   /// name a row without a correction; if that row is a record of a station, the correction is
@@ -94,7 +93,7 @@ class MeasurementsStore {
 
  private:
   struct Statements;
-  std::unique_ptr<Statements> statements_;
+  std::shared_ptr<Statements> statements_;
 };
 
 }  // namespace fitgauge::store

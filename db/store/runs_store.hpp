@@ -58,7 +58,6 @@ struct RunFilter {
 class RunsStore {
  public:
   explicit RunsStore(sql::Connection& connection);
-  ~RunsStore();
 
   /// Stores a run that is queued, running or, with `finish` in the same job, already over.
   /// `run.id` is ignored. @returns the id, rising.
@@ -102,7 +101,7 @@ class RunsStore {
 
  private:
   struct Statements;
-  std::unique_ptr<Statements> statements_;
+  std::shared_ptr<Statements> statements_;
 };
 
 }  // namespace fitgauge::store

@@ -79,7 +79,6 @@ std::string shown_digits(const Digest& digest);
 class TablesStore {
  public:
   explicit TablesStore(sql::Connection& connection);
-  ~TablesStore();
 
   /// @errors PreconditionFailed when `parent` is not the newest revision (another import came
   ///   first); TableRowsInvalid when two cells are the same or a range is empty.
@@ -94,7 +93,7 @@ class TablesStore {
 
  private:
   struct Statements;
-  std::unique_ptr<Statements> statements_;
+  std::shared_ptr<Statements> statements_;
 };
 
 }  // namespace fitgauge::store
