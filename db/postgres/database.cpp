@@ -88,7 +88,7 @@ class SharedDatabase final : public Database {
         chosen.address, daemon, notifications_, [this](bool names) { heard(names); },
         [this](Listener::Figures figures) {
           is_away_ = !figures;
-          monitor_.server_is_away(!figures);
+          monitor_.note(Finding::Away, figures ? "" : kNoAnswer);
           const std::lock_guard lock(figures_mutex_);
           figures_ = figures;
         });
@@ -143,7 +143,7 @@ class SharedDatabase final : public Database {
   Names names_;
   Notifications notifications_;
   HealthMonitor monitor_;
-  Position position_{[this](const std::string& why) { monitor_.set_back(why); }};
+  Position position_{[this](const std::string& why) { monitor_.note(Finding::SetBack, why); }};
   std::atomic<bool> is_away_{false};
   Writer::Engine writer_engine_;
   ReadPool::Engine reader_engine_;

@@ -1,5 +1,6 @@
 #include "db/store/log_store.hpp"
 
+#include "base/text.hpp"
 #include "db/sql/sealed_table.hpp"
 #include "db/sql/statement.hpp"
 #include "db/store/stores.hpp"
@@ -51,22 +52,21 @@ struct LogStore::Statements {
                        "SELECT hash FROM log_nodes WHERE level = ? AND node >= ? AND node < ? "
                        "ORDER BY node"};
 
-  std::optional<std::string> reason_of(std::string_view name);
+  std::optional<std::string> reason_of(std::string_view name) {
+    return read_first<std::string>(reason.query(name));
+  }
 };
 
 LogStore::LogStore(sql::Connection& connection)
-    : statements_(std::make_unique<Statements>(connection)) {}
-LogStore::~LogStore() = default;
+    : statements_(std::make_shared<Statements>(connection)) {}
 
 namespace {
 
 using Origin = std::array<std::uint8_t, 16>;
 
-Origin origin_in(const Rows& rows, int column) {
-  Origin origin{};
-  const std::string_view bytes = rows.get<sql::Blob>(column).bytes;
-  std::copy_n(bytes.begin(), std::min(bytes.size(), origin.size()), origin.begin());
-  return origin;
+/// The names of marks. The comment of log_marks is fixed with its migration, and lists fewer.
+std::string_view word(LogStore::Mark mark) {
+  return word_of(mark, {"copy", "forked", "centre", "place", "retention"});
 }
 
 std::array<std::int64_t, 4> numbers_in(const Rows& rows, int column) {
@@ -79,10 +79,6 @@ std::array<std::int64_t, 4> numbers_in(const Rows& rows, int column) {
 // list it.
 std::string mark_of_changes(std::string_view history) { return fmt::format("changes {}", history); }
 
-sql::Blob blob_of(const Origin& origin) {
-  return {{reinterpret_cast<const char*>(origin.data()), origin.size()}};
-}
-
 }  // namespace
 
 LogStore::State LogStore::state() const {
@@ -91,12 +87,7 @@ LogStore::State LogStore::state() const {
     throw StorageFailure(
         {ErrorCode::StorageCorrupt, "the head of the log is missing in the database"});
   }
-  require_sound(rows, 3, kLog);
-  State state;
-  state.origin = origin_in(rows, 0);
-  state.name = rows.get<std::optional<std::string>>(1);
-  state.size = rows.get<std::int64_t>(2);
-  return state;
+  return row_of<State>(rows, kLog);
 }
 
 void LogStore::set_name(std::string_view name) {
@@ -108,7 +99,7 @@ std::vector<LogStore::Branch> LogStore::branches() const {
   std::vector<Branch> branches;
   for (Rows rows = statements_->branches.query(); rows.next();) {
     require_sound(rows, 7, kLogBranches);
-    branches.push_back({.origin = origin_in(rows, 0),
+    branches.push_back({.origin = rows.get<Origin>(0),
                         .name = rows.get<std::string>(1),
                         .size = rows.get<std::int64_t>(2),
                         .newest = numbers_in(rows, 3)});
@@ -120,50 +111,16 @@ std::int64_t LogStore::last_change(std::string_view history) const {
   return std::stoll(statements_->reason_of(mark_of_changes(history)).value_or("0"));
 }
 
-bool LogStore::is_copy() const { return statements_->reason.query("copy").next(); }
-
-std::optional<std::string> LogStore::Statements::reason_of(std::string_view name) {
-  Rows rows = reason.query(name);
-  return rows.next() ? std::optional(rows.get<std::string>(0)) : std::nullopt;
+std::optional<std::string> LogStore::mark(Mark mark) const {
+  return statements_->reason_of(word(mark));
 }
 
-std::optional<std::string> LogStore::forked() const { return statements_->reason_of("forked"); }
-
-void LogStore::set_forked(const std::optional<std::string>& reason) {
-  statements_->unmark.run("forked");
-  if (reason) statements_->mark.run("forked", *reason);
+void LogStore::set_mark(Mark mark, const std::optional<std::string>& reason) {
+  statements_->unmark.run(word(mark));
+  if (reason) statements_->mark.run(word(mark), *reason);
 }
 
-// Not in the comment of log_marks, which is fixed with its migration: 'centre', digits as reason.
-std::optional<std::string> LogStore::centre() const { return statements_->reason_of("centre"); }
-
-void LogStore::set_centre(std::string_view digits) {
-  statements_->unmark.run("centre");
-  statements_->mark.run("centre", digits);
-}
-
-std::string LogStore::place() const {
-  Rows rows = statements_->place.query();
-  rows.next();
-  return rows.get<std::string>(0);
-}
-
-// Not in that comment either: 'place', with the text as reason.
-std::optional<std::string> LogStore::kept_place() const { return statements_->reason_of("place"); }
-
-void LogStore::keep_place() {
-  statements_->unmark.run("place");
-  statements_->mark.run("place", place());
-}
-
-std::optional<std::string> LogStore::retention() const {
-  return statements_->reason_of("retention");
-}
-
-void LogStore::set_retention(std::string_view text) {
-  statements_->unmark.run("retention");
-  statements_->mark.run("retention", text);
-}
+std::string LogStore::place() const { return statements_->place.returning<std::string>(); }
 
 void LogStore::begin_branch(std::int64_t size, const Origin& origin, std::string_view name) {
   const State ended = state();
@@ -172,21 +129,17 @@ void LogStore::begin_branch(std::int64_t size, const Origin& origin, std::string
     rows.next();
     return numbers_in(rows, 0);
   }();
-  statements_->add_branch.run(blob_of(ended.origin), ended.name.value_or(""), size, last[0],
-                              last[1], last[2], last[3]);
+  statements_->add_branch.run(ended.origin, ended.name.value_or(""), size, last[0], last[1],
+                              last[2], last[3]);
   statements_->mark.run(mark_of_changes(ended.name.value_or("")),
                         std::to_string(statements_->last_change.returning<std::int64_t>()));
-  statements_->set_origin.run(blob_of(origin), name);
+  statements_->set_origin.run(origin, name);
   statements_->seal.renew(1);
-  for (const char* const mark : {"copy", "forked"}) statements_->unmark.run(mark);
+  for (const Mark mark : {Mark::Copy, Mark::Forked}) set_mark(mark, std::nullopt);
 }
 
 std::vector<std::string> LogStore::keys() const {
-  std::vector<std::string> keys;
-  for (Rows rows = statements_->keys.query(); rows.next();) {
-    keys.push_back(rows.get<std::string>(0));
-  }
-  return keys;
+  return read_all<std::string>(statements_->keys.query());
 }
 
 void LogStore::add_key(std::string_view vkey, std::int64_t now_ns) {
@@ -208,6 +161,9 @@ std::int64_t LogStore::nodes(int level, std::int64_t first, std::int64_t count,
   return visited;
 }
 
+constexpr std::string_view kChangeColumns =
+    "id, at, caller, kind, name, action, before_text, after_text";
+
 struct ChangesStore::Statements {
   sql::Connection& c;
   sql::Statement size{c, "SELECT coalesce(max(id), 0) FROM changes"};
@@ -216,41 +172,21 @@ struct ChangesStore::Statements {
       c, fmt::format("SELECT {}, {} FROM changes WHERE id > ?1 AND (?2 IS NULL OR kind = ?2) "
                      "AND (?3 IS NULL OR name = ?3) AND at >= ?4 AND at < ?5 ORDER BY id "
                      "LIMIT ?6",
-                     kChanges.columns, kChanges.is_sound(c))};
+                     kChangeColumns, kChanges.is_sound(c))};
   sql::Statement of_kind{c, fmt::format("SELECT {}, {} FROM changes WHERE kind = ?1 ORDER BY id",
-                                        kChanges.columns, kChanges.is_sound(c))};
+                                        kChangeColumns, kChanges.is_sound(c))};
   sql::Statement leaves{c, "SELECT leaf FROM changes WHERE id > ?1 AND id <= ?2 ORDER BY id"};
 };
 
 ChangesStore::ChangesStore(sql::Connection& connection)
-    : statements_(std::make_unique<Statements>(connection)) {}
-ChangesStore::~ChangesStore() = default;
+    : statements_(std::make_shared<Statements>(connection)) {}
 
-std::int64_t ChangesStore::size() const {
-  Rows rows = statements_->size.query();
-  return rows.next() ? rows.get<std::int64_t>(0) : 0;
-}
+std::int64_t ChangesStore::size() const { return statements_->size.returning<std::int64_t>(); }
 
 void ChangesStore::append(const Change& change, const Digest& leaf) {
   statements_->append.run(change.id, change.at_ns, change.caller, change.kind, change.name,
                           change.action, change.before, change.after, leaf);
 }
-
-namespace {
-
-Change read_change(const Rows& rows) {
-  require_sound(rows, 9, kChanges);
-  return {.id = rows.get<std::int64_t>(0),
-          .at_ns = rows.get<std::int64_t>(1),
-          .caller = rows.get<std::optional<std::string>>(2),
-          .kind = rows.get<std::string>(3),
-          .name = rows.get<std::string>(4),
-          .action = rows.get<std::string>(5),
-          .before = rows.get<std::optional<std::string>>(6),
-          .after = rows.get<std::optional<std::string>>(7)};
-}
-
-}  // namespace
 
 ChangesStore::Page ChangesStore::list(const ChangeFilter& filter, std::int64_t after,
                                       std::int64_t limit) const {
@@ -264,18 +200,14 @@ ChangesStore::Page ChangesStore::list(const ChangeFilter& filter, std::int64_t a
        rows.next();) {
     page.has_more = page.changes.size() == static_cast<std::size_t>(limit) || bytes > kMostBytes;
     if (page.has_more) break;
-    const Change& change = page.changes.emplace_back(read_change(rows));
+    const Change& change = page.changes.emplace_back(row_of<Change>(rows, kChanges));
     bytes += change.before.value_or("").size() + change.after.value_or("").size();
   }
   return page;
 }
 
 std::vector<Change> ChangesStore::of_kind(std::string_view kind) const {
-  std::vector<Change> changes;
-  for (Rows rows = statements_->of_kind.query(kind); rows.next();) {
-    changes.push_back(read_change(rows));
-  }
-  return changes;
+  return read_all<Change>(statements_->of_kind.query(kind), kChanges);
 }
 
 void ChangesStore::leaves(std::int64_t after, std::int64_t count,

@@ -2,45 +2,15 @@
 
 namespace fitgauge::store {
 
-template <class Change>
-void HealthMonitor::change(Change change) {
+void HealthMonitor::note(Finding finding, std::string reason) {
   const std::lock_guard lock(mutex_);
   const HealthState before = current().state;
-  const bool was_set_back = !set_back_.empty();
-  change();
+  const bool was_set_back = !reasons_.front().empty();
+  std::string& kept = reasons_.at(static_cast<std::size_t>(finding));
+  if (finding != Finding::Damage || kept.empty()) kept = std::move(reason);
   const Health after = current();
-  const bool is_news = after.state != before || was_set_back == set_back_.empty();
+  const bool is_news = after.state != before || was_set_back == reasons_.front().empty();
   if (is_news && report_) report_(after);
-}
-
-void HealthMonitor::checking(std::string reason) {
-  change([&] { checking_ = std::move(reason); });
-}
-
-void HealthMonitor::check_passed() {
-  change([&] { checking_.clear(); });
-}
-
-void HealthMonitor::damaged(std::string reason) {
-  change([&] {
-    if (damage_.empty()) damage_ = std::move(reason);
-  });
-}
-
-void HealthMonitor::set_back(std::string reason) {
-  change([&] { set_back_ = std::move(reason); });
-}
-
-void HealthMonitor::writes_failed(std::string reason) {
-  change([&] { write_failure_ = std::move(reason); });
-}
-
-void HealthMonitor::writes_succeeded() {
-  change([&] { write_failure_.clear(); });
-}
-
-void HealthMonitor::server_is_away(bool is_away) {
-  change([&] { server_is_away_ = is_away; });
 }
 
 Health HealthMonitor::health() const {
@@ -49,12 +19,12 @@ Health HealthMonitor::health() const {
 }
 
 Health HealthMonitor::current() const {
-  if (!set_back_.empty()) return {HealthState::WritesFailing, set_back_};
-  if (!damage_.empty()) return {HealthState::Damaged, damage_};
-  if (!write_failure_.empty()) return {HealthState::WritesFailing, write_failure_};
-  if (server_is_away_) return {HealthState::WritesFailing, "PostgreSQL does not answer"};
-  if (!checking_.empty()) return {HealthState::Checking, checking_};
-  return {};
+  using State = HealthState;
+  constexpr State kStates[] = {State::WritesFailing, State::Damaged, State::WritesFailing,
+                               State::WritesFailing, State::Checking};
+  const auto found = std::ranges::find_if_not(reasons_, &std::string::empty);
+  if (found == reasons_.end()) return {};
+  return {kStates[found - reasons_.begin()], *found};
 }
 
 ReadPool::Engine::Engine(const OpenOptions& options, HealthMonitor& health, sql::OpenSession open)
@@ -86,7 +56,7 @@ void ReadPool::Engine::run() {
     }
     if (error) {
       session.reset();
-      if (error->code == ErrorCode::StorageCorrupt) health_.damaged(error->message);
+      if (error->code == ErrorCode::StorageCorrupt) health_.note(Finding::Damage, error->message);
     }
     tell(job, std::move(error));
   }

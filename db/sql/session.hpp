@@ -8,6 +8,15 @@
 
 namespace fitgauge::store {
 
+/// Findings about the database, the most serious first: the health is of the first.
+enum class Finding : std::uint8_t {
+  SetBack,  ///< an older copy was restored; for good
+  Damage,   ///< for good; the first reason stays
+  Writes,   ///< the last commit failed
+  Away,     ///< PostgreSQL does not answer
+  Check     ///< it is being checked
+};
+
 /// Collects findings of the writer, the readers and the checks, and reports each change of state
 /// once. Thread-safe.
 class HealthMonitor {
@@ -17,28 +26,17 @@ class HealthMonitor {
   /// @param report called in the order of the changes, on the thread that found out.
   explicit HealthMonitor(Report report = {}) : report_(std::move(report)) {}
 
-  void checking(std::string reason);
-  void check_passed();
-  void damaged(std::string reason);   ///< for good; the first reason stays
-  void set_back(std::string reason);  ///< for good, instead of all other reasons
-  void writes_failed(std::string reason);
-  void writes_succeeded();
-  void server_is_away(bool is_away);  ///< of PostgreSQL
+  /// Notes a finding. @param reason empty: it does not apply any more
+  void note(Finding finding, std::string reason = {});
 
   Health health() const;
 
  private:
-  template <class Change>
-  void change(Change change);
   Health current() const;
 
   const Report report_;
   mutable std::mutex mutex_;
-  std::string checking_;
-  std::string set_back_;
-  std::string damage_;
-  std::string write_failure_;
-  bool server_is_away_ = false;
+  std::array<std::string, 5> reasons_;  ///< by Finding
 };
 
 }  // namespace fitgauge::store

@@ -297,7 +297,7 @@ void Writer::Engine::probe() {
 
 void Writer::Engine::succeed() {
   failing_ = false;
-  health_.writes_succeeded();
+  health_.note(Finding::Writes);
 }
 
 /// After most failures the connection is opened again, because its memory is not reliable.
@@ -307,11 +307,8 @@ void Writer::Engine::fail(const Error& error) {
   if (session_) session_->rollback();
   if (!is_reliable) session_.reset();
   failing_ = true;
-  if (error.code == ErrorCode::StorageCorrupt) {
-    health_.damaged(error.message);
-  } else {
-    health_.writes_failed(error.message);
-  }
+  const bool is_damaged = error.code == ErrorCode::StorageCorrupt;
+  health_.note(is_damaged ? Finding::Damage : Finding::Writes, error.message);
 }
 
 sql::Session& Writer::Engine::session() {
@@ -330,7 +327,7 @@ Error Writer::in_progress() {
 
 std::optional<Timestamp> Retention::time(const SteadyTime& clock, const Stores& stores) {
   if (!std::exchange(has_begun_, true)) {
-    std::istringstream text(stores.log.retention().value_or(""));
+    std::istringstream text(stores.log.mark(LogStore::Mark::Retention).value_or(""));
     State kept;
     if (text >> kept.time_ns >> kept.next_ns >> kept.held_ns >> kept.seen_ns) state_ = kept_ = kept;
   }
@@ -359,7 +356,8 @@ void Retention::keep(Stores& stores) {
   if (!has_moved(kept_.seen_ns, state_.seen_ns) && !has_moved(kept_.held_ns, state_.held_ns)) {
     return;
   }
-  stores.log.set_retention(
+  stores.log.set_mark(
+      LogStore::Mark::Retention,
       fmt::format("{} {} {} {}", state_.time_ns, state_.next_ns, state_.held_ns, state_.seen_ns));
   kept_ = state_;
 }

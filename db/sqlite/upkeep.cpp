@@ -86,8 +86,8 @@ Scrub::Scrub(const OpenOptions& options, const Clock& clock, HealthMonitor& heal
              bool check_file_first)
     : options_(options), clock_(clock), health_(health) {
   if (check_file_first) {
-    health.checking(
-        fmt::format("{} is being checked", (options.directory / kDatabaseFile).string()));
+    health.note(Finding::Check,
+                fmt::format("{} is being checked", (options.directory / kDatabaseFile).string()));
   }
   thread_ = Thread("the scrub", [this, check_file_first](const std::stop_token& stop) {
     run(stop, check_file_first);
@@ -104,7 +104,7 @@ void Scrub::run(const std::stop_token& stop, bool check_file_first) {
 void Scrub::check_file(const std::stop_token& stop) {
   const Result<void> checked = store::check_file(options_.directory / kDatabaseFile, stop);
   if (stop.stop_requested()) return;
-  checked ? health_.check_passed() : health_.damaged(checked.error().message);
+  checked ? health_.note(Finding::Check) : health_.note(Finding::Damage, checked.error().message);
 }
 
 void Scrub::pass(const std::stop_token& stop) {
@@ -123,11 +123,12 @@ void Scrub::pass(const std::stop_token& stop) {
       return goes_on;
     };
     if (const std::optional<std::string> finding = verifier.first_altered_row(go_on)) {
-      health_.damaged(fmt::format("{}. Restore a backup", *finding));
+      health_.note(Finding::Damage, fmt::format("{}. Restore a backup", *finding));
     }
   } catch (const StorageFailure& failure) {
     // The next pass handles other failures (no memory, no descriptors).
-    if (failure.error().code == ErrorCode::StorageCorrupt) health_.damaged(failure.error().message);
+    if (failure.error().code == ErrorCode::StorageCorrupt)
+      health_.note(Finding::Damage, failure.error().message);
   } catch (const std::exception& bug) {
     if (options_.job_threw) {
       options_.job_threw({ErrorCode::Internal, fmt::format("the scrub failed: {}", bug.what())});

@@ -13,7 +13,6 @@ class Connection;
 class LogStore {
  public:
   explicit LogStore(sql::Connection& connection);
-  ~LogStore();
 
   struct State {
     std::array<std::uint8_t, 16> origin{};  ///< random, made with the database, never changed
@@ -37,23 +36,19 @@ class LogStore {
   std::vector<Branch> branches() const;  ///< the oldest first
   /// Returns the last change of an ended history by its name; 0 if the history is unknown.
   std::int64_t last_change(std::string_view history) const;
-  /// Whether the database is a copy that `backup` made and nobody has started.
-  bool is_copy() const;
-  /// Returns the reason why no measurement is recorded, if the centre has another log of this name.
-  std::optional<std::string> forked() const;
-  void set_forked(const std::optional<std::string>& reason);
-  /// Returns the digits of the last history of the centre that this folder has met; none: it has
-  /// met no centre.
-  std::optional<std::string> centre() const;
-  void set_centre(std::string_view digits);
+  /// Facts about the database, each with a text.
+  enum class Mark : std::uint8_t {
+    Copy,      ///< it is a copy that `backup` made and nobody has started
+    Forked,    ///< why no measurement is recorded: the centre has another log of this name
+    Centre,    ///< digits of the last history of the centre that this folder has met
+    Place,     ///< place() where the ids of this log were last given out
+    Retention  ///< the text of Retention
+  };
+  std::optional<std::string> mark(Mark mark) const;
+  /// @param reason none: removes the mark
+  void set_mark(Mark mark, const std::optional<std::string>& reason);
   /// Returns where the database is: server, database and timeline of PostgreSQL; empty for a file.
   std::string place() const;
-  /// Returns the place where the ids of this log were last given out; none: nobody has kept it.
-  std::optional<std::string> kept_place() const;
-  void keep_place();
-  /// The text of Retention; none: it has kept nothing yet.
-  std::optional<std::string> retention() const;
-  void set_retention(std::string_view text);
   /// Ends the history that state() names with the `size` rows there are, and begins another.
   void begin_branch(std::int64_t size, const std::array<std::uint8_t, 16>& origin,
                     std::string_view name);
@@ -77,7 +72,7 @@ class LogStore {
 
  private:
   struct Statements;
-  std::unique_ptr<Statements> statements_;
+  std::shared_ptr<Statements> statements_;
 };
 
 /// Other data folders whose stations forward records to this one, and the forwarded part of the log
@@ -85,7 +80,6 @@ class LogStore {
 class OriginsStore {
  public:
   explicit OriginsStore(sql::Connection& connection);
-  ~OriginsStore();
 
   struct Origin {
     std::int64_t number = 0;                  ///< in MeasurementRow::origin, from 1 on
@@ -144,7 +138,7 @@ class OriginsStore {
 
  private:
   struct Statements;
-  std::unique_ptr<Statements> statements_;
+  std::shared_ptr<Statements> statements_;
 };
 
 /// The codes are stored: never change or reuse one. Setup, Plan and Catalogue are those of
@@ -165,7 +159,6 @@ constexpr RevisionKind last_of(RevisionKind) { return RevisionKind::Catalogue; }
 class RevisionsStore {
  public:
   explicit RevisionsStore(sql::Connection& connection);
-  ~RevisionsStore();
 
   struct Revision {
     std::int64_t number = 0;
@@ -192,7 +185,7 @@ class RevisionsStore {
 
  private:
   struct Statements;
-  std::unique_ptr<Statements> statements_;
+  std::shared_ptr<Statements> statements_;
 };
 
 /// A change of something that decides on verdicts or rights: a table, a document or a key.
@@ -218,7 +211,6 @@ struct ChangeFilter {
 class ChangesStore {
  public:
   explicit ChangesStore(sql::Connection& connection);
-  ~ChangesStore();
 
   std::int64_t size() const;
   /// @pre its id is size() + 1. @param leaf its hash in the tree of changes
@@ -238,7 +230,7 @@ class ChangesStore {
 
  private:
   struct Statements;
-  std::unique_ptr<Statements> statements_;
+  std::shared_ptr<Statements> statements_;
 };
 
 }  // namespace fitgauge::store

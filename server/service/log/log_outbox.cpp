@@ -143,11 +143,11 @@ std::string_view LogOutbox::newest_history() const {
 void LogOutbox::meet(std::string_view centre) const {
   const auto known = database_.readers().wait(
       [](const store::Stores& stores) -> Result<std::optional<std::string>> {
-        return stores.log.centre();
+        return stores.log.mark(store::LogStore::Mark::Centre);
       });
   if (!known || *known == centre) return;
   static_cast<void>(database_.writer().wait([centre](store::Stores& stores) -> Result<bool> {
-    stores.log.set_centre(centre);
+    stores.log.set_mark(store::LogStore::Mark::Centre, std::string(centre));
     return true;
   }));
 }

@@ -44,7 +44,7 @@ Result<void> LogService::set_forked(const std::optional<std::string>& why) {
   if (why.has_value() == forked().has_value()) return {};
   forked_.set(std::make_shared<const std::string>(why.value_or("")));
   const auto stored = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
-    stores.log.set_forked(why);
+    stores.log.set_mark(store::LogStore::Mark::Forked, why);
     return true;
   });
   if (!stored) return stored.error();

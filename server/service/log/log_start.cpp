@@ -14,6 +14,8 @@
 namespace fitgauge::app {
 namespace {
 
+using Mark = store::LogStore::Mark;
+
 /// Hexadecimal digits of the origin in the log's name.
 constexpr std::size_t kDigitsInName = 8;
 
@@ -88,11 +90,11 @@ Result<LogService::Loaded> LogService::read() const {
                   .keys = stores.log.keys(),
                   .rows = stores.measurements.log_size(),
                   .changes = stores.changes.size(),
-                  .is_copy = stores.log.is_copy(),
+                  .is_copy = stores.log.mark(Mark::Copy).has_value(),
                   .place = stores.log.place(),
-                  .kept_place = stores.log.kept_place(),
-                  .forked = stores.log.forked(),
-                  .centre = stores.log.centre(),
+                  .kept_place = stores.log.mark(Mark::Place),
+                  .forked = stores.log.mark(Mark::Forked),
+                  .centre = stores.log.mark(Mark::Centre),
                   .origins = stores.origins.list()};
   });
 }
@@ -116,8 +118,8 @@ Result<void> LogService::keep_place() const {
   if (!options_.shares) return {};
   const auto is_kept = TRY(database_.readers().wait([&](const store::Stores& stores) {
     const auto forked = [](std::string why) { return Error{ErrorCode::LogForked, std::move(why)}; };
-    if (const auto why = stores.log.forked()) return Result<bool>(forked(*why));
-    const auto kept = stores.log.kept_place();
+    if (const auto why = stores.log.mark(Mark::Forked)) return Result<bool>(forked(*why));
+    const auto kept = stores.log.mark(Mark::Place);
     const std::string place = stores.log.place();
     if (kept && *kept != place && !is_after_fail_over(kept, place)) {
       return Result<bool>(forked(
@@ -136,7 +138,7 @@ Result<void> LogService::keep_place() const {
   }));
   if (is_kept) return {};
   TRY(database_.writer().wait([](store::Stores& stores) -> Result<bool> {
-    stores.log.keep_place();
+    stores.log.set_mark(Mark::Place, stores.log.place());
     return true;
   }));
   return {};
@@ -368,7 +370,7 @@ Result<void> LogService::branch(const Loaded& loaded, const std::string& why) {
     const auto state = stores.log.state();
     if (state.origin != loaded.state.origin) return false;
     if (!state.name) stores.log.set_name(before);
-    if (options_.shares) stores.log.keep_place();
+    if (options_.shares) stores.log.set_mark(Mark::Place, stores.log.place());
     stores.log.begin_branch(stores.measurements.log_size(), origin, name);
     return true;
   });

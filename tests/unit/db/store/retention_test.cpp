@@ -19,12 +19,13 @@ struct Retained : Fixture {
     options.steady_time = [begin = clock.now()] { return SteadyTime{.time = begin, .held = 0s}; };
     open();
     const auto is_kept = [this] {
-      return *read(
-          [](const Stores& stores) -> Result<bool> { return stores.log.retention().has_value(); });
+      return *read([](const Stores& stores) -> Result<bool> {
+        return stores.log.mark(LogStore::Mark::Retention).has_value();
+      });
     };
     while (!is_kept()) std::this_thread::yield();
     const auto cleared = write([](Stores& stores) -> Result<bool> {
-      stores.log.set_retention("0 0 0 0");
+      stores.log.set_mark(LogStore::Mark::Retention, "0 0 0 0");
       return true;
     });
     REQUIRE(cleared.has_value());
