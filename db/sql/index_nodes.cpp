@@ -1,7 +1,5 @@
 #include "db/sql/index_nodes.hpp"
 
-#include "db/sql/measurement_query.hpp"
-
 namespace fitgauge::store {
 namespace {
 
@@ -27,19 +25,9 @@ bool is_asked(const MeasurementFilter& filter, int kind) {
          (!filter.verdict || verdict_of(kind) == *filter.verdict);
 }
 
-IndexNodes::IndexNodes(sql::Connection& c)
-    : node_(c,
-            "SELECT min_measured_at, max_measured_at, min_received_at, max_received_at, stale, "
-            "paired FROM measurement_nodes WHERE level = ? AND node = ?"),
-      aggregates_(c, fmt::format("SELECT value, kind, statistics, {} FROM measurement_aggregates "
-                                 "WHERE level = ? AND node = ? AND field = ?",
-                                 AggregatedValue(c).is_none)),
-      aggregates_of_value_(c,
-                           "SELECT value, kind, statistics, 0 FROM measurement_aggregates "
-                           "WHERE level = ? AND node = ? AND field = ? AND value = ?"),
-      pairs_(c,
-             "SELECT bytes FROM measurement_pairs WHERE level = ? AND field = ? AND by_field = ? "
-             "AND node = ?") {}
+AggregatedValue::AggregatedValue(const sql::Connection& connection)
+    : is_none(connection.dialect().keys_may_be_null ? "value IS NULL" : "value = 0"),
+      parameter(connection.dialect().keys_may_be_null ? "?" : "coalesce(?, 0)") {}
 
 std::optional<IndexNodes::Found> IndexNodes::find(const IndexNode& node,
                                                   const MeasurementFilter& filter) {

@@ -6,6 +6,15 @@
 
 namespace fitgauge::store {
 
+/// Field value of aggregates over rows without that field: NULL, or 0 if the engine's keys cannot
+/// be NULL.
+struct AggregatedValue {
+  std::string_view is_none;
+  std::string_view parameter;
+
+  explicit AggregatedValue(const sql::Connection& connection);
+};
+
 /// A value that is asked for, of a field as the index numbers them.
 struct FieldValue {
   int field = 0;
@@ -20,7 +29,7 @@ Verdict verdict_of(int kind);
 /// Statistics of the nodes of the index, without their blocks.
 class IndexNodes {
  public:
-  explicit IndexNodes(sql::Connection& connection);
+  explicit IndexNodes(sql::Connection& connection) : connection_(connection) {}
 
   /// Relation of a node's times to the times of the filter.
   enum class Times : std::uint8_t { Outside, Inside, Partly };
@@ -51,10 +60,23 @@ class IndexNodes {
  private:
   bool lacks(const IndexNode& node, const FieldValue& wanted, const MeasurementFilter& filter);
 
-  sql::Statement node_;
-  sql::Statement aggregates_;
-  sql::Statement aggregates_of_value_;
-  sql::Statement pairs_;
+  sql::Connection& connection_;
+  sql::Statement node_{
+      connection_,
+      "SELECT min_measured_at, max_measured_at, min_received_at, max_received_at, stale, "
+      "paired FROM measurement_nodes WHERE level = ? AND node = ?"};
+  sql::Statement aggregates_{
+      connection_, fmt::format("SELECT value, kind, statistics, {} FROM measurement_aggregates "
+                               "WHERE level = ? AND node = ? AND field = ?",
+                               AggregatedValue(connection_).is_none)};
+  sql::Statement aggregates_of_value_{
+      connection_,
+      "SELECT value, kind, statistics, 0 FROM measurement_aggregates "
+      "WHERE level = ? AND node = ? AND field = ? AND value = ?"};
+  sql::Statement pairs_{
+      connection_,
+      "SELECT bytes FROM measurement_pairs WHERE level = ? AND field = ? AND by_field = ? "
+      "AND node = ?"};
   std::vector<std::uint8_t> matching_;  ///< tuples
 };
 
@@ -76,7 +98,7 @@ class PairIndex {
   static constexpr int kSums = 0;     ///< the field of tuples' sums
   static constexpr int kColumns = 0;  ///< key of their columns
 
-  explicit PairIndex(sql::Connection& connection);
+  explicit PairIndex(sql::Connection& connection) : connection_(connection) {}
 
   /// Builds it from the stored nodes below. @pre node.level > 0
   Node derive(const IndexNode& node);
@@ -95,15 +117,31 @@ class PairIndex {
   template <class Visit>
   bool visit_sums(const IndexNode& node, const Visit& visit);
 
-  sql::Statement columns_;
-  sql::Statement insert_columns_;
-  sql::Statement delete_columns_;
-  sql::Statement child_pairs_;
-  sql::Statement pair_;
-  sql::Statement insert_pair_;
-  sql::Statement delete_pair_;
-  sql::Statement count_surplus_columns_;
-  sql::Statement count_surplus_pairs_;
+  sql::Connection& connection_;
+  sql::Statement columns_{connection_, "SELECT bytes FROM measurement_columns WHERE block = ?"};
+  sql::Statement insert_columns_{connection_, "INSERT INTO measurement_columns VALUES (?, ?)"};
+  sql::Statement delete_columns_{connection_, "DELETE FROM measurement_columns WHERE block = ?"};
+  sql::Statement child_pairs_{
+      connection_,
+      "SELECT bytes FROM measurement_pairs WHERE level = ? AND field = ? AND "
+      "by_field = ? AND node BETWEEN ? AND ? ORDER BY node"};
+  sql::Statement pair_{
+      connection_,
+      "SELECT bytes FROM measurement_pairs WHERE level = ? AND field = ? AND by_field = ? "
+      "AND node = ?"};
+  sql::Statement insert_pair_{connection_, "INSERT INTO measurement_pairs VALUES (?, ?, ?, ?, ?)"};
+  sql::Statement delete_pair_{
+      connection_,
+      "DELETE FROM measurement_pairs WHERE level = ? AND field = ? AND by_field = ? "
+      "AND node = ?"};
+  sql::Statement count_surplus_columns_{
+      connection_,
+      "SELECT count(*) FROM measurement_columns c WHERE NOT EXISTS (SELECT "
+      "1 FROM measurement_nodes n WHERE n.level = 0 AND n.node = c.block)"};
+  sql::Statement count_surplus_pairs_{
+      connection_,
+      "SELECT count(*) FROM measurement_pairs p WHERE p.level = 0 OR NOT EXISTS (SELECT 1 "
+      "FROM measurement_nodes n WHERE n.level = p.level AND n.node = p.node)"};
 };
 
 }  // namespace fitgauge::store

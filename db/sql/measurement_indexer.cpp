@@ -1,7 +1,6 @@
 #include "db/sql/measurement_indexer.hpp"
 
 #include "db/sql/connection.hpp"
-#include "db/sql/measurement_query.hpp"
 #include "db/store/block_columns.hpp"
 
 namespace fitgauge::store {
@@ -73,55 +72,7 @@ void drop_field(NodeIndex& index, int field) {
 }  // namespace
 
 MeasurementIndexer::MeasurementIndexer(sql::Connection& c)
-    : connection_(c),
-      pairs_(c),
-      last_block_(last_block_statement(c)),
-      block_(c, block_sql()),
-      corrected_(c, "SELECT correction_of FROM measurements WHERE correction_of BETWEEN ? AND ?"),
-      stands_(c, fmt::format("SELECT count(*) FROM measurements m WHERE m.id = ? AND {}",
-                             CurrentCondition(std::to_string(kLastId)).has_no_later_rival)),
-      insert_node_(c, "INSERT INTO measurement_nodes VALUES (?, ?, ?, ?, ?, ?, 0, ?)"),
-      insert_postings_(c, "INSERT INTO measurement_postings VALUES ", "(?, ?, ?, ?)"),
-      insert_values_(c, "INSERT INTO measurement_values VALUES (?, ?)"),
-      insert_aggregate_(c,
-                        fmt::format("INSERT INTO measurement_aggregates VALUES (?, ?, ?, {}, ?, ?)",
-                                    AggregatedValue(c).parameter)),
-      child_times_(c,
-                   "SELECT min(min_measured_at), max(max_measured_at), min(min_received_at), "
-                   "max(max_received_at), min(paired) FROM measurement_nodes WHERE level = ? AND "
-                   "node BETWEEN ? AND ?"),
-      child_aggregates_(c, fmt::format("SELECT node, field, value, kind, statistics, {} FROM "
-                                       "measurement_aggregates WHERE level = ? AND node BETWEEN ? "
-                                       "AND ? ORDER BY node",
-                                       AggregatedValue(c).is_none)),
-      make_stale_(
-          c, "UPDATE measurement_nodes SET stale = 1, paired = 0 WHERE level = ? AND node = ?"),
-      rivals_(
-          c,
-          "WITH RECURSIVE back(id) AS (SELECT id FROM measurements WHERE correction_of = ?1 AND "
-          "(SELECT count(*) FROM measurements WHERE correction_of = ?1) > 1 UNION ALL "
-          "SELECT c.id FROM back JOIN measurements c ON c.correction_of = back.id) "
-          "SELECT id FROM back"),
-      stale_(c,
-             "SELECT level, node FROM measurement_nodes WHERE stale = 1 ORDER BY level, node "
-             "LIMIT 1"),
-      unpaired_(c,
-                "SELECT level, node FROM measurement_nodes WHERE paired = 0 ORDER BY level, node "
-                "LIMIT 1"),
-      delete_aggregates_(c, "DELETE FROM measurement_aggregates WHERE level = ? AND node = ?"),
-      make_fresh_(
-          c, "UPDATE measurement_nodes SET stale = 0, paired = ? WHERE level = ? AND node = ?"),
-      nodes_(c,
-             "SELECT level, node, min_measured_at, max_measured_at, min_received_at, "
-             "max_received_at, stale, paired FROM measurement_nodes ORDER BY level, node"),
-      posting_(c,
-               "SELECT rows FROM measurement_postings WHERE field = ? AND value = ? AND block = ?"),
-      values_(c, "SELECT bytes FROM measurement_values WHERE block = ?"),
-      node_aggregates_(c, fmt::format("SELECT field, value, kind, statistics, {} FROM "
-                                      "measurement_aggregates WHERE level = ? AND node = ?",
-                                      AggregatedValue(c).is_none)),
-      count_postings_(c, "SELECT count(*) FROM measurement_postings"),
-      count_values_(c, "SELECT count(*) FROM measurement_values") {}
+    : connection_(c), block_(c, block_sql()) {}
 
 bool MeasurementIndexer::step() {
   if (const auto stale = first_of(stale_)) {

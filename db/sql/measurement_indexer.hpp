@@ -1,8 +1,6 @@
 #pragma once
 
-#include "db/sql/index_nodes.hpp"
-#include "db/sql/statement.hpp"
-#include "db/store/measurement_index.hpp"
+#include "db/sql/measurement_query.hpp"
 #include "db/store/measurement_statistics.hpp"
 
 namespace fitgauge::store {
@@ -55,29 +53,68 @@ class MeasurementIndexer {
   bool is_stored(const IndexNode& node, const NodeIndex& index, bool stale);
 
   sql::Connection& connection_;
-  PairIndex pairs_;
-  sql::Statement last_block_;
+  PairIndex pairs_{connection_};
+  sql::Statement last_block_{last_block_statement(connection_)};
   sql::Statement block_;
-  sql::Statement corrected_;
-  sql::Statement stands_;
-  sql::Statement insert_node_;
-  sql::RowsInsert insert_postings_;
-  sql::Statement insert_values_;
-  sql::Statement insert_aggregate_;
-  sql::Statement child_times_;
-  sql::Statement child_aggregates_;
-  sql::Statement make_stale_;
-  sql::Statement rivals_;
-  sql::Statement stale_;
-  sql::Statement unpaired_;
-  sql::Statement delete_aggregates_;
-  sql::Statement make_fresh_;
-  sql::Statement nodes_;
-  sql::Statement posting_;
-  sql::Statement values_;
-  sql::Statement node_aggregates_;
-  sql::Statement count_postings_;
-  sql::Statement count_values_;
+  sql::Statement corrected_{
+      connection_, "SELECT correction_of FROM measurements WHERE correction_of BETWEEN ? AND ?"};
+  sql::Statement stands_{connection_,
+                         fmt::format("SELECT count(*) FROM measurements m WHERE m.id = ? AND {}",
+                                     CurrentCondition(std::to_string(kLastId)).has_no_later_rival)};
+  sql::Statement insert_node_{connection_,
+                              "INSERT INTO measurement_nodes VALUES (?, ?, ?, ?, ?, ?, 0, ?)"};
+  sql::RowsInsert insert_postings_{connection_, "INSERT INTO measurement_postings VALUES ",
+                                   "(?, ?, ?, ?)"};
+  sql::Statement insert_values_{connection_, "INSERT INTO measurement_values VALUES (?, ?)"};
+  sql::Statement insert_aggregate_{
+      connection_, fmt::format("INSERT INTO measurement_aggregates VALUES (?, ?, ?, {}, ?, ?)",
+                               AggregatedValue(connection_).parameter)};
+  sql::Statement child_times_{
+      connection_,
+      "SELECT min(min_measured_at), max(max_measured_at), min(min_received_at), "
+      "max(max_received_at), min(paired) FROM measurement_nodes WHERE level = ? AND "
+      "node BETWEEN ? AND ?"};
+  sql::Statement child_aggregates_{
+      connection_, fmt::format("SELECT node, field, value, kind, statistics, {} FROM "
+                               "measurement_aggregates WHERE level = ? AND node BETWEEN ? "
+                               "AND ? ORDER BY node",
+                               AggregatedValue(connection_).is_none)};
+  sql::Statement make_stale_{
+      connection_,
+      "UPDATE measurement_nodes SET stale = 1, paired = 0 WHERE level = ? AND node = ?"};
+  sql::Statement rivals_{
+      connection_,
+      "WITH RECURSIVE back(id) AS (SELECT id FROM measurements WHERE correction_of = ?1 AND "
+      "(SELECT count(*) FROM measurements WHERE correction_of = ?1) > 1 UNION ALL "
+      "SELECT c.id FROM back JOIN measurements c ON c.correction_of = back.id) "
+      "SELECT id FROM back"};
+  sql::Statement stale_{
+      connection_,
+      "SELECT level, node FROM measurement_nodes WHERE stale = 1 ORDER BY level, node "
+      "LIMIT 1"};
+  sql::Statement unpaired_{
+      connection_,
+      "SELECT level, node FROM measurement_nodes WHERE paired = 0 ORDER BY level, node "
+      "LIMIT 1"};
+  sql::Statement delete_aggregates_{
+      connection_, "DELETE FROM measurement_aggregates WHERE level = ? AND node = ?"};
+  sql::Statement make_fresh_{
+      connection_,
+      "UPDATE measurement_nodes SET stale = 0, paired = ? WHERE level = ? AND node = ?"};
+  sql::Statement nodes_{
+      connection_,
+      "SELECT level, node, min_measured_at, max_measured_at, min_received_at, "
+      "max_received_at, stale, paired FROM measurement_nodes ORDER BY level, node"};
+  sql::Statement posting_{
+      connection_,
+      "SELECT rows FROM measurement_postings WHERE field = ? AND value = ? AND block = ?"};
+  sql::Statement values_{connection_, "SELECT bytes FROM measurement_values WHERE block = ?"};
+  sql::Statement node_aggregates_{connection_,
+                                  fmt::format("SELECT field, value, kind, statistics, {} FROM "
+                                              "measurement_aggregates WHERE level = ? AND node = ?",
+                                              AggregatedValue(connection_).is_none)};
+  sql::Statement count_postings_{connection_, "SELECT count(*) FROM measurement_postings"};
+  sql::Statement count_values_{connection_, "SELECT count(*) FROM measurement_values"};
 };
 
 }  // namespace fitgauge::store

@@ -108,10 +108,6 @@ CurrentCondition::CurrentCondition(std::string_view last)
           "WHERE (r.received_at, r.hash) > (back.at, back.leaf) AND r.id <= {}))",
           last)) {}
 
-AggregatedValue::AggregatedValue(const sql::Connection& connection)
-    : is_none(connection.dialect().keys_may_be_null ? "value IS NULL" : "value = 0"),
-      parameter(connection.dialect().keys_may_be_null ? "?" : "coalesce(?, 0)") {}
-
 Statement last_block_statement(sql::Connection& connection) {
   return {connection, "SELECT max(node) FROM measurement_nodes WHERE level = 0"};
 }
@@ -124,15 +120,7 @@ std::int64_t indexed_to(Statement& last_block) {
 MeasurementQuery::MeasurementQuery(sql::Connection& connection, std::string columns)
     : connection_(connection),
       columns_(std::move(columns)),
-      most_at_once_(connection.dialect().streams ? kLastId : kRowsAtATime),
-      nodes_(connection),
-      last_block_(last_block_statement(connection)),
-      block_rows_(connection,
-                  "SELECT rows FROM measurement_postings WHERE field = ? AND value = ? AND "
-                  "block = ?"),
-      corrected_(connection,
-                 "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE correction_of IS NOT NULL "
-                 "AND id <= ? LIMIT 1) AS found") {}
+      most_at_once_(connection.dialect().streams ? kLastId : kRowsAtATime) {}
 
 bool MeasurementQuery::run(const MeasurementFilter& filter, const IdSpan& ids, ListOrder order,
                            const Visitor& visit, const BlockReader& read_block) {

@@ -13,15 +13,6 @@ sql::Statement last_block_statement(sql::Connection& connection);
 /// The length that summaries and figures are of, in nm: at 20 °C if the row was corrected to it.
 inline constexpr std::string_view kSummedLength = "coalesce(m.corrected_nm, m.measured_nm)";
 
-/// Field value of aggregates over rows without that field: NULL, or 0 if the engine's keys cannot
-/// be NULL.
-struct AggregatedValue {
-  std::string_view is_none;
-  std::string_view parameter;
-
-  explicit AggregatedValue(const sql::Connection& connection);
-};
-
 /// Conditions for a row `m` that no correction replaces: no correction names the row, and no later
 /// correction names the same record as the row or as a correction that the row goes back to.
 /// @param last the last id that counts, or a parameter; occurs once in each condition.
@@ -93,10 +84,16 @@ class MeasurementQuery {
   sql::Connection& connection_;
   const std::string columns_;
   const std::int64_t most_at_once_;
-  IndexNodes nodes_;
-  sql::Statement last_block_;
-  sql::Statement block_rows_;
-  sql::Statement corrected_;
+  IndexNodes nodes_{connection_};
+  sql::Statement last_block_{last_block_statement(connection_)};
+  sql::Statement block_rows_{
+      connection_,
+      "SELECT rows FROM measurement_postings WHERE field = ? AND value = ? AND "
+      "block = ?"};
+  sql::Statement corrected_{
+      connection_,
+      "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE correction_of IS NOT NULL "
+      "AND id <= ? LIMIT 1) AS found"};
   std::map<std::string, sql::Statement> statements_;  ///< by their text
 };
 

@@ -12,20 +12,8 @@ bool is_summed(TextField field) { return index_of(field) < kSummedColumns.size()
 
 MeasurementSummary::MeasurementSummary(sql::Connection& c, TextField group_by)
     : group_by_(group_by),
-      rows_(c, fmt::format("m.{}, m.verdict, {}", column_of(group_by), kSummedLength)),
-      nodes_(c),
-      last_block_(last_block_statement(c)),
-      columns_(c,
-               "SELECT c.bytes FROM measurement_nodes n JOIN measurement_columns c ON c.block = "
-               "n.node WHERE n.level = 0 AND n.node = ? AND n.paired = 1"),
-      blocks_of_value_(c,
-                       "SELECT count(*) FROM (SELECT 1 FROM measurement_postings WHERE field = ? "
-                       "AND value = ? LIMIT ?) AS found"),
-      corrected_(
-          c, fmt::format("SELECT correction_of FROM measurements WHERE correction_of IS NOT NULL "
-                         "UNION SELECT m.id FROM measurements m WHERE m.id IN (SELECT id FROM "
-                         "measurements WHERE correction_of IS NOT NULL) AND NOT {} ORDER BY 1",
-                         CurrentCondition(std::to_string(kLastId)).has_no_later_rival)) {}
+      connection_(c),
+      rows_(c, fmt::format("m.{}, m.verdict, {}", column_of(group_by), kSummedLength)) {}
 
 Result<std::vector<SummaryGroup>> MeasurementSummary::run(const MeasurementFilter& filter,
                                                           std::size_t max_groups) {

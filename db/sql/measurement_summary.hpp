@@ -47,12 +47,24 @@ class MeasurementSummary {
            const ExactStatistics& statistics);
 
   const TextField group_by_;
+  sql::Connection& connection_;
   MeasurementQuery rows_;
-  IndexNodes nodes_;
-  sql::Statement last_block_;
-  sql::Statement columns_;
-  sql::Statement blocks_of_value_;
-  sql::Statement corrected_;
+  IndexNodes nodes_{connection_};
+  sql::Statement last_block_{last_block_statement(connection_)};
+  sql::Statement columns_{
+      connection_,
+      "SELECT c.bytes FROM measurement_nodes n JOIN measurement_columns c ON c.block = "
+      "n.node WHERE n.level = 0 AND n.node = ? AND n.paired = 1"};
+  sql::Statement blocks_of_value_{
+      connection_,
+      "SELECT count(*) FROM (SELECT 1 FROM measurement_postings WHERE field = ? "
+      "AND value = ? LIMIT ?) AS found"};
+  sql::Statement corrected_{
+      connection_,
+      fmt::format("SELECT correction_of FROM measurements WHERE correction_of IS NOT NULL "
+                  "UNION SELECT m.id FROM measurements m WHERE m.id IN (SELECT id FROM "
+                  "measurements WHERE correction_of IS NOT NULL) AND NOT {} ORDER BY 1",
+                  CurrentCondition(std::to_string(kLastId)).has_no_later_rival)};
 
   // State of the summary that is being made.
   const MeasurementFilter* filter_ = nullptr;

@@ -57,28 +57,6 @@ void add_tuples(const TupleWriter& tuples, PairIndex::Node& index) {
 
 }  // namespace
 
-PairIndex::PairIndex(sql::Connection& c)
-    : columns_(c, "SELECT bytes FROM measurement_columns WHERE block = ?"),
-      insert_columns_(c, "INSERT INTO measurement_columns VALUES (?, ?)"),
-      delete_columns_(c, "DELETE FROM measurement_columns WHERE block = ?"),
-      child_pairs_(c,
-                   "SELECT bytes FROM measurement_pairs WHERE level = ? AND field = ? AND "
-                   "by_field = ? AND node BETWEEN ? AND ? ORDER BY node"),
-      pair_(c,
-            "SELECT bytes FROM measurement_pairs WHERE level = ? AND field = ? AND by_field = ? "
-            "AND node = ?"),
-      insert_pair_(c, "INSERT INTO measurement_pairs VALUES (?, ?, ?, ?, ?)"),
-      delete_pair_(c,
-                   "DELETE FROM measurement_pairs WHERE level = ? AND field = ? AND by_field = ? "
-                   "AND node = ?"),
-      count_surplus_columns_(c,
-                             "SELECT count(*) FROM measurement_columns c WHERE NOT EXISTS (SELECT "
-                             "1 FROM measurement_nodes n WHERE n.level = 0 AND n.node = c.block)"),
-      count_surplus_pairs_(
-          c,
-          "SELECT count(*) FROM measurement_pairs p WHERE p.level = 0 OR NOT EXISTS (SELECT 1 "
-          "FROM measurement_nodes n WHERE n.level = p.level AND n.node = p.node)") {}
-
 PairIndex::Node PairIndex::derive(const IndexNode& node) {
   Node index;
   node.level == 1 ? derive_from_columns(node, index) : derive_from_pairs(node, index);
