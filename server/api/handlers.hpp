@@ -1,35 +1,34 @@
 #pragma once
 
 #include "api/services.hpp"
-#include "http/route.hpp"
 
 namespace fitgauge::api {
 
 /// For callbacks, which are copied.
-using SharedResponder = std::shared_ptr<http::Responder>;
-inline SharedResponder share(http::Responder responder) {
-  return std::make_shared<http::Responder>(std::move(responder));
+using SharedResponder = std::shared_ptr<Responder>;
+inline SharedResponder share(Responder responder) {
+  return std::make_shared<Responder>(std::move(responder));
 }
 
 /// Responds with a result, or with its error.
 inline auto answer_by(SharedResponder shared) {
-  return [shared = std::move(shared)](Result<http::Response> made) {
+  return [shared = std::move(shared)](Result<Response> made) {
     made ? shared->answer(*std::move(made)) : shared->fail(made.error());
   };
 }
 
 /// Answers with the response that `make` makes from a result.
 template <class Make>
-auto answer_with(http::Responder responder, Make make) {
+auto answer_with(Responder responder, Make make) {
   return [answer = answer_by(share(std::move(responder))), make = std::move(make)](auto found) {
     found ? answer(make(*std::move(found))) : answer(found.error());
   };
 }
 
 /// 200 with a JSON text.
-inline Result<http::Response> json_response(Result<std::string> body) {
+inline Result<Response> json_response(Result<std::string> body) {
   if (!body) return body.error();
-  return http::Response(200, "application/json", *std::move(body));
+  return Response(200, "application/json", *std::move(body));
 }
 
 /// Error for a GET whose If-Match names a state other than the current one.
@@ -39,8 +38,8 @@ inline Error other_state() {
 }
 
 /// Bytes that came from outside, so that a browser does not run them.
-inline http::Response foreign_bytes(std::string content_type, std::string bytes) {
-  return http::Response(200, std::move(content_type), std::move(bytes))
+inline Response foreign_bytes(std::string content_type, std::string bytes) {
+  return Response(200, std::move(content_type), std::move(bytes))
       .with("Content-Security-Policy", "sandbox; default-src 'none'; style-src 'unsafe-inline'");
 }
 

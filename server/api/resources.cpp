@@ -15,8 +15,8 @@ void Routes::operator()(std::string_view head, http::Handler handler, http::Rout
 }
 
 void Routes::operator()(std::string_view head, Handler handler, http::Route route) {
-  const auto with_services = [&of = services, handler](const http::Request& request,
-                                                       http::Responder responder) {
+  const auto with_services = [&of = services, handler](const Request& request,
+                                                       Responder responder) {
     handler(of, request, std::move(responder));
   };
   (*this)(head, with_services, std::move(route));
@@ -29,46 +29,31 @@ void Routes::group(std::string_view name) {
 }
 
 http::RouteTable make_routes(Routes add, const Schemas& schemas) {
-  add_limits_routes(add);
-  add_fits_routes(add);
-  add_gauges_routes(add);
-  add_standards_routes(add);
-  add_press_fits_routes(add);
-  add_verdicts_routes(add);
-  add.group("limits");
-  add_tables_routes(add);
-  add.group("tables");
-  add_measurements_routes(add);
-  add_notes_routes(add);
-  add_certificates_routes(add);
-  add_stored_statistics_routes(add);
-  add_compensation_routes(add);
-  add_parts_routes(add);
-  add.group("measurements");
-  add_log_routes(add);
-  add_changes_routes(add);
-  add_intake_routes(add);
-  add_revisions_routes(add);
-  add.group("log");
-  add_statistics_routes(add);
-  add_uncertainty_routes(add);
-  add_documents_routes(add);
-  add.group("statistics");
-  add_plans_routes(add);
-  add_catalogues_routes(add);
-  add.group("plans");
-  add_files_routes(add);
-  add.group("files");
-  add_setups_routes(add);
-  add.group("setups");
-  add_runs_routes(add);
-  add.group("runs");
-  add_cycles_routes(add);
-  add.group("cycles");
-  add_events_routes(add);
-  add_service_routes(add);
-  add_page_routes(add);
-  add.group("service");
+  struct Group {
+    std::string_view tag;
+    std::vector<AddRoutes*> routes;
+  };
+  const Group groups[] = {
+      {"limits",
+       {add_limits_routes, add_fits_routes, add_gauges_routes, add_standards_routes,
+        add_press_fits_routes, add_verdicts_routes}},
+      {"tables", {add_tables_routes}},
+      {"measurements",
+       {add_measurements_routes, add_notes_routes, add_certificates_routes,
+        add_stored_statistics_routes, add_compensation_routes, add_parts_routes}},
+      {"log", {add_log_routes, add_changes_routes, add_intake_routes, add_revisions_routes}},
+      {"statistics", {add_statistics_routes, add_uncertainty_routes, add_documents_routes}},
+      {"plans", {add_plans_routes, add_catalogues_routes}},
+      {"files", {add_files_routes}},
+      {"setups", {add_setups_routes}},
+      {"runs", {add_runs_routes}},
+      {"cycles", {add_cycles_routes}},
+      {"service", {add_events_routes, add_service_routes, add_page_routes}},
+  };
+  for (const Group& group : groups) {
+    for (AddRoutes* const add_some : group.routes) add_some(add);
+    add.group(group.tag);
+  }
   add_openapi_route(add, schemas);
   return http::RouteTable(std::move(add.all));
 }

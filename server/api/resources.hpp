@@ -3,7 +3,6 @@
 #include "api/services.hpp"
 #include "api/wire/response_cache.hpp"
 #include "base/json/schema.hpp"
-#include "http/route.hpp"
 
 namespace fitgauge::api {
 
@@ -11,7 +10,7 @@ namespace fitgauge::api {
 /// them.
 class Routes {
  public:
-  using Handler = void (*)(const Services&, const http::Request&, http::Responder);
+  using Handler = void (*)(const Services&, const Request&, Responder);
 
   explicit Routes(const Services& of)
       : services(of), cache(std::make_shared<ResponseCache>(of.tables)) {}
@@ -29,10 +28,18 @@ class Routes {
 };
 
 /// A text in the path.
-inline http::Parameter path_parameter(std::string name, std::string description) {
+inline Parameter path_parameter(std::string name, std::string description) {
   return {.name = std::move(name),
           .place = http::ParameterPlace::Path,
           .description = std::move(description)};
+}
+
+/// A parameter of the query that may be absent: a text, or of another type.
+inline Parameter query(std::string name, std::string description) {
+  return {.name = std::move(name), .description = std::move(description)};
+}
+inline Parameter query(std::string name, http::ParameterType type, std::string description) {
+  return {.name = std::move(name), .type = std::move(type), .description = std::move(description)};
 }
 
 /// A body that must be JSON. @param schema its name
@@ -42,51 +49,28 @@ inline http::BodyRules json_body(std::string schema) {
           .schema = std::move(schema)};
 }
 
-/// /v1/limits: the limits of size of one designation.
-void add_limits_routes(Routes& add);
-/// /v1/fits: a hole and a shaft of one nominal size, and the search for fits.
-void add_fits_routes(Routes& add);
-/// /v1/gauges: sizes of GO and NO-GO gauges.
-void add_gauges_routes(Routes& add);
-/// /v1/press-fits: the pressure of an interference.
-void add_press_fits_routes(Routes& add);
-/// GET /v1/standards and /v1/standards/{name}: tables of other standards than ISO 286.
-void add_standards_routes(Routes& add);
-/// /v1/tables: the tables by feature as JSON, CSV and in the control's form, and a shop's own
-/// columns.
-void add_tables_routes(Routes& add);
-/// /v1/verdicts: judges a measured value and stores nothing.
-void add_verdicts_routes(Routes& add);
-/// /v1/measurements: judges and stores, reads one, lists, sums up.
-void add_measurements_routes(Routes& add);
-/// /v1/measurements/{id}/notes: causes and actions of a measurement.
-void add_notes_routes(Routes& add);
-/// /v1/catalogues: lists of causes and actions to choose from.
-void add_catalogues_routes(Routes& add);
-/// /v1/log and the proof of a measurement.
-void add_log_routes(Routes& add);
-/// /v1/changes: changes of tables, documents and keys.
-void add_changes_routes(Routes& add);
-/// /v1/log/{origin}/{from}: what stations forward.
-void add_intake_routes(Routes& add);
-/// Revisions of a centre for its stations.
-void add_revisions_routes(Routes& add);
-/// GET /v1/certificates: the measurements of an order or a part, on paper or as JSON.
-void add_certificates_routes(Routes& add);
-/// /v1/statistics: figures of values that are sent; nothing is stored.
-void add_statistics_routes(Routes& add);
-/// GET /v1/measurements/{capability,chart}: figures of stored values.
-void add_stored_statistics_routes(Routes& add);
-/// GET /v1/measurements/compensation: the next offset of a machine.
-void add_compensation_routes(Routes& add);
-/// /v1/uncertainty: an uncertainty budget, computed and not stored.
-void add_uncertainty_routes(Routes& add);
-/// /v1/uncertainties, /v1/gauges-in-use and /v1/studies: named documents.
-void add_documents_routes(Routes& add);
-/// /v1/plans: inspection plans.
-void add_plans_routes(Routes& add);
-/// GET /v1/parts/{part}: the verdict of a part.
-void add_parts_routes(Routes& add);
+/// Adds the routes of a resource. The functions stand by the groups of operations.
+using AddRoutes = void(Routes& add);
+/// /v1/limits, /v1/fits, /v1/gauges, /v1/standards, /v1/press-fits and /v1/verdicts: nothing is
+/// stored.
+AddRoutes add_limits_routes, add_fits_routes, add_gauges_routes, add_standards_routes,
+    add_press_fits_routes, add_verdicts_routes;
+/// /v1/tables as JSON, CSV and in the control's form, and a shop's own columns.
+AddRoutes add_tables_routes;
+/// /v1/measurements with notes, capability, chart and compensation, /v1/certificates, /v1/parts.
+AddRoutes add_measurements_routes, add_notes_routes, add_certificates_routes,
+    add_stored_statistics_routes, add_compensation_routes, add_parts_routes;
+/// /v1/log and proofs, /v1/changes, what stations forward, and a centre's revisions for them.
+AddRoutes add_log_routes, add_changes_routes, add_intake_routes, add_revisions_routes;
+/// /v1/statistics and /v1/uncertainty, which store nothing; /v1/uncertainties, /v1/gauges-in-use
+/// and /v1/studies: named documents.
+AddRoutes add_statistics_routes, add_uncertainty_routes, add_documents_routes;
+/// /v1/plans and /v1/catalogues; /v1/files; /v1/setups; /v1/runs; /v1/cycles.
+AddRoutes add_plans_routes, add_catalogues_routes, add_files_routes, add_setups_routes,
+    add_runs_routes, add_cycles_routes;
+/// /v1/events, the health checks, /metrics and the web page.
+AddRoutes add_events_routes, add_service_routes, add_page_routes;
+
 /// The plan that a part is checked against, if one alone fits, and its characteristics without a
 /// value.
 struct PlanOfPart {
@@ -96,45 +80,20 @@ struct PlanOfPart {
 /// Gives the plan of a part. @errors as the answer of the part has.
 void find_plan_of(const Services& services, std::string_view part,
                   std::function<void(Result<PlanOfPart>)> done);
-/// /v1/files: the control's disk.
-void add_files_routes(Routes& add);
-/// /v1/setups: machines and workpieces.
-void add_setups_routes(Routes& add);
-/// /v1/runs: programs that run on the simulated machine.
-void add_runs_routes(Routes& add);
-/// /v1/cycles: the cycles that programs may call.
-void add_cycles_routes(Routes& add);
-/// GET /v1/events: what happens, as Server-Sent Events.
-void add_events_routes(Routes& add);
-/// /livez, /readyz and /metrics.
-void add_service_routes(Routes& add);
-/// The web page at / and the files it is made of below /web/.
-void add_page_routes(Routes& add);
 
 /// Every operation of the service, with /openapi.json, which describes all other operations.
 /// @param of_plant, schemas the routes and the components of the rooms above
 http::RouteTable make_routes(Routes of_plant, const Schemas& schemas);
 
 // The components of /openapi.json: each room describes the bodies it reads and the answers it
-// gives. Setups describe themselves (runs/setup_codec.hpp).
+// gives.
 
-void add_limits_schemas(Schemas& schemas);
-void add_gauges_schemas(Schemas& schemas);
-void add_statistics_schemas(Schemas& schemas);
-void add_uncertainty_schemas(Schemas& schemas);
-void add_changes_schemas(Schemas& schemas);
-void add_documents_schemas(Schemas& schemas);
-void add_compensation_schemas(Schemas& schemas);
-void add_measurement_schemas(Schemas& schemas);
-void add_note_schemas(Schemas& schemas);
-void add_table_schemas(Schemas& schemas);
-void add_plan_schemas(Schemas& schemas);
-void add_parts_schemas(Schemas& schemas);
-void add_file_schemas(Schemas& schemas);
-void add_run_schemas(Schemas& schemas);
-void add_diagnostic_schemas(Schemas& schemas);
-void add_cycle_schemas(Schemas& schemas);
-void add_service_schemas(Schemas& schemas);
+using AddSchemas = void(Schemas& schemas);
+AddSchemas add_limits_schemas, add_gauges_schemas, add_statistics_schemas, add_uncertainty_schemas,
+    add_changes_schemas, add_documents_schemas, add_compensation_schemas, add_measurement_schemas,
+    add_note_schemas, add_table_schemas, add_plan_schemas, add_parts_schemas, add_file_schemas,
+    add_setup_schemas, add_run_schemas, add_diagnostic_schemas, add_cycle_schemas,
+    add_service_schemas;
 
 /// @param of_plant resources of the rooms above
 Schemas make_schemas(const Schemas& of_plant = {});
@@ -146,6 +105,8 @@ schema::Fields limits_fields();
 /// The measured value and its verdict, to add to the limits.
 schema::Fields verdict_fields();
 schema::Fields warnings_field();
+/// The values of a fit that filters select.
+std::string stored_clearance_schema();
 
 /// The formula of an answer.
 schema::Fields formula_fields();

@@ -2,6 +2,7 @@
 
 #include "base/clock.hpp"
 #include "formats/certificate/certificate.hpp"
+#include "http/route.hpp"
 #include "service/state/readiness.hpp"
 
 namespace fitgauge::app {
@@ -24,6 +25,11 @@ namespace fitgauge::api {
 class GaugesInUse;
 class Metrics;
 class VerdictCounts;
+
+using http::Parameter;
+using http::Request;
+using http::Responder;
+using http::Response;
 
 /// Services of the resources; owned by the daemon, alive as long as the server.
 struct Services {

@@ -1,10 +1,8 @@
 #pragma once
 
 #include "base/clock.hpp"
-#include "metrology/gauging/conformance.hpp"
 #include "metrology/gauging/gauge.hpp"
 #include "record/fields.hpp"
-#include "tables/iso286/nominal_size.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
 #include "tables/standards/designated_limits.hpp"
 

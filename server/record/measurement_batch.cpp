@@ -122,8 +122,8 @@ Result<void> decode_ndjson(std::string_view body, const BatchContext& context,
 
 /// The header names each field once; an unknown name is reported for every row.
 Result<void> check_header(std::vector<std::string> header) {
-  std::sort(header.begin(), header.end());
-  const auto name = std::adjacent_find(header.begin(), header.end());
+  std::ranges::sort(header);
+  const auto name = std::ranges::adjacent_find(header);
   if (name == header.end()) return {};
   return Error{ErrorCode::CsvMalformed, fmt::format("the header line names {} twice", *name),
                "line 1"};

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/clock.hpp"
 #include "base/json/text_arena.hpp"
 #include "base/length.hpp"
 #include "record/measurement.hpp"

@@ -1,5 +1,4 @@
 #include "record/measurement_row_reader.hpp"
-#include "record/verdict_codec.hpp"
 #include "tables/iso286/tolerance_class.hpp"
 #include "tables/standards/designated_limits.hpp"
 
@@ -47,12 +46,11 @@ void MeasurementRowReader::resolve_limits() {
   if (by_designation) return resolve_designation();
   if (ways == 0 && given(RowField::Quantity)) return resolve_none();
   if (!given(RowField::Nominal)) {
-    report(ErrorCode::FieldMissing, kRowFields[RowField::Nominal].name,
-           "nominal_mm or designation is required");
+    report(ErrorCode::FieldMissing, RowField::Nominal, "nominal_mm or designation is required");
   }
   if (by_drawing) return resolve_explicit();
   if (by_class) return resolve_class();
-  report(ErrorCode::FieldMissing, kRowFields[RowField::Class].name,
+  report(ErrorCode::FieldMissing, RowField::Class,
          "give tolerance_class, or feature with upper_um, lower_um or both; for a value without "
          "limits give quantity");
 }
@@ -62,12 +60,12 @@ void MeasurementRowReader::take_quantity(gauging::Quantity of_class, bool has_ot
   const bool is_size =
       *draft_.quantity <= gauging::Quantity::Width;  // of a slot, a key, or between two faces
   if (has_others && is_size) return;
-  report(ErrorCode::FieldConflict, kRowFields[RowField::Quantity].name,
+  report(ErrorCode::FieldConflict, RowField::Quantity,
          fmt::format("the limits belong to a {}: remove quantity", word(of_class)));
 }
 
 void MeasurementRowReader::refuse_feature(gauging::Quantity quantity) {
-  report(ErrorCode::FieldConflict, kRowFields[RowField::Feature].name,
+  report(ErrorCode::FieldConflict, RowField::Feature,
          fmt::format("feature is for diameters and widths, not for a {}: remove feature",
                      word(quantity)));
 }
@@ -76,8 +74,7 @@ void MeasurementRowReader::refuse_feature(gauging::Quantity quantity) {
 void MeasurementRowReader::resolve_none() {
   if (!draft_.quantity) return;
   if (draft_.nominal && !is_nominal(*draft_.nominal, *draft_.quantity)) {
-    report(ErrorCode::LengthOutOfRange, kRowFields[RowField::Nominal].name,
-           nominal_range(*draft_.quantity));
+    report(ErrorCode::LengthOutOfRange, RowField::Nominal, nominal_range(*draft_.quantity));
   }
   app::apply_no_limits(draft_.measurement, draft_.nominal);
 }
@@ -135,13 +132,13 @@ void MeasurementRowReader::resolve_class() {
     if (made) {
       size = *made;
     } else {
-      report(made.error().code, kRowFields[RowField::Nominal].name, made.error().message);
+      report(made.error().code, RowField::Nominal, made.error().message);
     }
   }
   if (!draft_.class_name) return;
   const auto id = find_class(*draft_.class_name);
   if (!id) {
-    report(ErrorCode::ClassUnknown, kRowFields[RowField::Class].name, id.error().message);
+    report(ErrorCode::ClassUnknown, RowField::Class, id.error().message);
   } else if (size) {
     take_limits(tables_.limits_of_size(*size, *id), kRowFields[RowField::Class].name);
   }
@@ -167,12 +164,12 @@ void MeasurementRowReader::resolve_explicit() {
   if (!has_feature && given(RowField::Feature)) {
     refuse_feature(quantity);
   } else if (has_feature && !given(RowField::Feature)) {
-    report(ErrorCode::FieldMissing, kRowFields[RowField::Feature].name,
+    report(ErrorCode::FieldMissing, RowField::Feature,
            "feature (hole or shaft) is required with explicit limits");
   }
   const bool one_given = given(RowField::Upper) || given(RowField::Lower);
   if (!one_given) {
-    report(ErrorCode::FieldMissing, kRowFields[RowField::Upper].name,
+    report(ErrorCode::FieldMissing, RowField::Upper,
            "give upper_um, lower_um or both with feature; for a value without limits give quantity "
            "without feature");
   }
@@ -181,15 +178,12 @@ void MeasurementRowReader::resolve_explicit() {
   const Length lower = draft_.lower.value_or(-app::kNoLimit);
   app::Measurement& m = draft_.measurement;
   if (!is_nominal(*draft_.nominal, quantity)) {
-    report(ErrorCode::LengthOutOfRange, kRowFields[RowField::Nominal].name,
-           nominal_range(quantity));
+    report(ErrorCode::LengthOutOfRange, RowField::Nominal, nominal_range(quantity));
   }
   if (upper < lower) {
-    report(ErrorCode::LimitsInvalid, kRowFields[RowField::Upper].name,
-           "upper_um is below lower_um");
+    report(ErrorCode::LimitsInvalid, RowField::Upper, "upper_um is below lower_um");
   } else if (!gauging::is_signed(quantity) && draft_.lower && *draft_.nominal + lower <= Length()) {
-    report(ErrorCode::LimitsInvalid, kRowFields[RowField::Lower].name,
-           "the lower limit must be above 0");
+    report(ErrorCode::LimitsInvalid, RowField::Lower, "the lower limit must be above 0");
   }
   m.basis = app::LimitsBasis::Explicit;
   m.nominal_size = *draft_.nominal;

@@ -1,8 +1,5 @@
 #include "record/measurement_row_reader.hpp"
 
-#include "base/length.hpp"
-#include "base/text.hpp"
-
 namespace fitgauge::api {
 namespace {
 
@@ -10,8 +7,8 @@ constexpr std::int64_t kMillion = 1'000'000;
 constexpr std::int64_t kLargestCoverage = 100 * kMillion;
 
 std::size_t search_field(std::string_view name) {
-  const auto found = std::find_if(kRowFields.begin(), kRowFields.end(),
-                                  [&](const RowField& field) { return field.name == name; });
+  const auto found =
+      std::ranges::find_if(kRowFields, [&](const RowField& field) { return field.name == name; });
   return static_cast<std::size_t>(found - kRowFields.begin());
 }
 
@@ -214,7 +211,7 @@ std::optional<std::string_view> MeasurementRowReader::text(std::size_t field,
     return !counts_characters || (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;  // UTF-8
   };
   if (value.text.size() > longest &&
-      std::cmp_greater(std::count_if(value.text.begin(), value.text.end(), counts), longest)) {
+      std::cmp_greater(std::ranges::count_if(value.text, counts), longest)) {
     report(ErrorCode::FieldTooLong, name,
            fmt::format("{} must have at most {} {}", name, longest,
                        counts_characters ? "characters" : "bytes"));
@@ -380,14 +377,14 @@ const app::Measurement* MeasurementRowReader::end() {
   if (!m.is_judged()) refuse_rule_without_limits();
   apply_size();
   if (m.degrees_of_freedom && !m.standard_uncertainty && !given(RowField::Uncertainty)) {
-    report(ErrorCode::FieldMissing, kRowFields[RowField::Uncertainty].name,
+    report(ErrorCode::FieldMissing, RowField::Uncertainty,
            "degrees_of_freedom needs uncertainty_um");
   }
   if (!given(RowField::MeasuredAt)) m.measured_at = context_.received_at;
   apply_gauge();
   if (draft_.rule.kind != gauging::DecisionRule::Kind::Simple && !m.standard_uncertainty &&
       !given(RowField::Uncertainty)) {
-    report(ErrorCode::FieldMissing, kRowFields[RowField::Uncertainty].name,
+    report(ErrorCode::FieldMissing, RowField::Uncertainty,
            fmt::format("rule {} needs uncertainty_um, the standard uncertainty, or a gauge in use "
                        "that has an uncertainty budget",
                        word(draft_.rule.kind)));

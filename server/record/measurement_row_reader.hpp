@@ -1,8 +1,6 @@
 #pragma once
 
 #include "base/json/field_reader.hpp"
-#include "record/fields.hpp"
-#include "record/measurement.hpp"
 #include "record/measurement_batch.hpp"
 #include "record/verdict_codec.hpp"
 
@@ -179,6 +177,9 @@ class MeasurementRowReader {
   Result<iso286::ClassId> find_class(std::string_view name);
   /// @param field none: the whole row
   void report(ErrorCode code, std::optional<std::string_view> field, std::string message);
+  void report(ErrorCode code, RowField::Index field, std::string message) {
+    report(code, kRowFields[field].name, std::move(message));
+  }
   void report(std::size_t field, const Error& error);
 
   const iso286::ToleranceTables& tables_;

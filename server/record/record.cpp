@@ -2,9 +2,7 @@
 
 #include <cassert>
 
-#include "base/clock.hpp"
 #include "base/json/json_writer.hpp"
-#include "base/length.hpp"
 #include "record/record_members.hpp"
 
 namespace fitgauge::app {

@@ -3,7 +3,6 @@
 #include "base/digest.hpp"
 #include "base/json/json_value.hpp"
 #include "base/json/text_arena.hpp"
-#include "base/result.hpp"
 #include "record/measurement.hpp"
 
 namespace fitgauge::app {

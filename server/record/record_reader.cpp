@@ -130,15 +130,10 @@ void read_limits(Record& record, const JsonValue& json, Measurement& m) {
   if (m.has_feature()) m.feature = record.required("feature", feature);
   m.deviations = {.upper = record.um("upper_deviation_um").value_or(app::kNoLimit),
                   .lower = record.um("lower_deviation_um").value_or(-app::kNoLimit)};
-  if (basis == word(app::LimitsBasis::Custom)) {
-    m.basis = app::LimitsBasis::Custom;
-  } else if (basis == word(app::LimitsBasis::Explicit)) {
-    m.basis = app::LimitsBasis::Explicit;
-  } else if (basis == word(app::LimitsBasis::Standard)) {
-    m.basis = app::LimitsBasis::Standard;
-  } else if (basis != word(app::LimitsBasis::Iso286)) {
-    record.wrong("basis");
-  }
+  using Basis = app::LimitsBasis;
+  const std::array known = {Basis::Iso286, Basis::Custom, Basis::Explicit, Basis::Standard};
+  const auto found = std::ranges::find(known, basis, [](Basis one) { return word(one); });
+  found != known.end() ? void(m.basis = *found) : record.wrong("basis");
   m.table_revision = record.text("table_revision").value_or("");
   if (const JsonValue* range = json.find("size_range_mm")) {
     TextArena unused;

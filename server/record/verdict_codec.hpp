@@ -1,9 +1,6 @@
 #pragma once
 
 #include "base/json/json_writer.hpp"
-#include "base/result.hpp"
-#include "metrology/gauging/conformance.hpp"
-#include "metrology/gauging/gauge.hpp"
 #include "record/measurement.hpp"
 
 namespace fitgauge::api {

@@ -2,11 +2,9 @@
 
 #include "db/sqlite/data_directory.hpp"
 #include "db/store/database.hpp"
-#include "proof/frontier.hpp"
 #include "service/log/log_check.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/log/log_reader.hpp"
-#include "service/measurements/mapping.hpp"
 
 namespace fitgauge::app {
 namespace {
@@ -54,12 +52,12 @@ bool has_limits_of_its_standard(const Measurement& m) {
     return standard.revision == m.table_revision;
   };
   const auto editions = standards::all();
-  if (std::none_of(editions.begin(), editions.end(), is_of)) return true;
+  if (std::ranges::none_of(editions, is_of)) return true;
   return limits && limits->deviations == m.deviations && limits->nominal == m.nominal_size;
 }
 
 /// Judges a stored measurement again by the limits and the rule stored with it.
-std::optional<std::string> check_verdict(const store::MeasurementRow& row, const RowNames& names) {
+std::optional<std::string> check_verdict(const MeasurementRow& row, const RowNames& names) {
   Measurement again = from_store(row, names);
   if (!has_limits_of_its_standard(again)) {
     return fmt::format("m{} has limits that {} does not give by {}", row.id, *again.class_name,
@@ -78,7 +76,7 @@ constexpr std::string_view kOfNoOrigin = "is of a folder that is not known: its 
 /// the start. One thread at a time.
 class LaterNames {
  public:
-  LaterNames(store::Database& database, const TableCatalog& tables, const Origins& origins)
+  LaterNames(Database& database, const TableCatalog& tables, const Origins& origins)
       : database_(database), tables_(tables), origins_(origins) {}
 
   RowNames names() const {
@@ -104,7 +102,7 @@ class LaterNames {
   }
 
   void read() const {
-    (void)database_.readers().wait([this](const store::Stores& stores) -> Result<bool> {
+    (void)database_.readers().wait([this](const Stores& stores) -> Result<bool> {
       for (const store::TableRevision& revision : stores.tables.list()) {
         revisions_.emplace(revision.number, revision.id);
       }
@@ -118,7 +116,7 @@ class LaterNames {
     });
   }
 
-  store::Database& database_;
+  Database& database_;
   const TableCatalog& tables_;
   const Origins& origins_;
   mutable Names revisions_;
@@ -175,13 +173,13 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
   };
   if (!options.attach) {
     open_options.is_open = [app = app.get()] { return app->stage_ == Stage::Open; };
-    open_options.check_measurement = [app = app.get()](const store::MeasurementRow& row) {
+    open_options.check_measurement = [app = app.get()](const MeasurementRow& row) {
       return app->stage_ == Stage::Open ? app->check_leaf(row) : std::nullopt;
     };
   }
   app->directory_ = options.directory;
   app->is_on_server_ = !options.address.empty();
-  open_options.names_changed = [app = app.get()](const store::Stores& stores) {
+  open_options.names_changed = [app = app.get()](const Stores& stores) {
     return app->stage_ == Stage::Open && app->take_names(stores);
   };
   if (!options.address.empty() && !options.attach) {
@@ -231,7 +229,7 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
 }
 
 /// Rows that other daemons have added.
-bool Application::take_names(const store::Stores& stores) {
+bool Application::take_names(const Stores& stores) {
   tables_->take(stores);
   log_->take_names(stores);
   return true;
@@ -240,7 +238,7 @@ bool Application::take_names(const store::Stores& stores) {
 std::optional<tlog::Hash> Application::kept_node(std::int64_t origin,
                                                  const tlog::Node& node) const {
   std::optional<tlog::Hash> kept;
-  const auto read = database_->readers().wait([&](const store::Stores& stores) -> Result<bool> {
+  const auto read = database_->readers().wait([&](const Stores& stores) -> Result<bool> {
     const int level = static_cast<int>(node.level / tlog::kTileHeight);
     const auto index = static_cast<std::int64_t>(node.index);
     const auto take = [&](const Digest& hash) { kept = hash; };
@@ -277,19 +275,16 @@ StorageFigures Application::storage() const {
 Readiness Application::readiness() const { return app::readiness(*database_, *tables_, *log_); }
 
 Result<std::optional<Timestamp>> Application::newest_measurement() const {
-  return database_->readers().wait(
-      [](const store::Stores& stores) -> Result<std::optional<Timestamp>> {
-        return stores.measurements.newest_received_at();
-      });
+  return database_->readers().wait([](const Stores& stores) -> Result<std::optional<Timestamp>> {
+    return stores.measurements.newest_received_at();
+  });
 }
 
 Result<void> Application::backup(const std::filesystem::path& file) const {
   // Reads the checkpoint first: the copy is made after it, and so has everything it covers. A
   // running daemon signs its rows within a second.
-  const auto rows =
-      database_->readers().wait([](const store::Stores& stores) -> Result<std::int64_t> {
-        return stores.measurements.log_size();
-      });
+  const auto rows = database_->readers().wait(
+      [](const Stores& stores) -> Result<std::int64_t> { return stores.measurements.log_size(); });
   const auto until = std::chrono::steady_clock::now() + kPatienceForCheckpoint;
   auto checkpoint = read_small_file(directory_ / kCheckpointFile);
   while (rows && size_of(checkpoint) < static_cast<std::uint64_t>(*rows) &&
@@ -307,7 +302,7 @@ RevisionIntake Application::revision_intake(RevisionIntake::Tell tell) {
   return {*database_, *tables_, log_->origins(), *clock_, std::move(tell)};
 }
 
-std::optional<std::string> Application::check_leaf(const store::MeasurementRow& row) const {
+std::optional<std::string> Application::check_leaf(const MeasurementRow& row) const {
   const Digest leaf = LeafMaker()(from_store(row, row_names(*tables_, log_->origins())));
   return leaf == row.hash ? std::nullopt : std::optional(altered_finding());
 }
@@ -327,7 +322,7 @@ Result<Application::Verification> Application::verify(
   const auto logs = LogService::logs(*database_);
   if (!logs && logs.error().code != ErrorCode::StorageCorrupt) return logs.error();
   if (!logs) {  // the log contradicts itself: a finding, and there may be more
-    return verification_of(database_->verify([&](const store::MeasurementRow& row) {
+    return verification_of(database_->verify([&](const MeasurementRow& row) {
       return finding_of(std::nullopt, check_verdict(row, names));
     }));
   }
@@ -342,7 +337,7 @@ Result<Application::Verification> Application::verify(
     if (!facts.checkpoint.empty()) check.expect("its newest checkpoint", facts.checkpoint);
   }
   for (const auto& [place, note] : notes) checks.at(origin_of(note, *logs)).expect(place, note);
-  auto report = database_->verify([&](const store::MeasurementRow& row) {
+  auto report = database_->verify([&](const MeasurementRow& row) {
     const auto check = checks.find(row.origin.value_or(0));
     std::optional<std::string> altered;
     if (check != checks.end()) {

@@ -2,30 +2,15 @@
 
 #include <filesystem>
 
-#include "base/clock.hpp"
 #include "base/histogram.hpp"
 #include "service/documents/document_service.hpp"
-#include "service/documents/key_service.hpp"
 #include "service/events/event_service.hpp"
-#include "service/files/file_service.hpp"
 #include "service/jobs.hpp"
-#include "service/log/log_intake.hpp"
 #include "service/log/log_outbox.hpp"
-#include "service/log/log_service.hpp"
-#include "service/measurements/measurement_service.hpp"
-#include "service/revisions/revision_feed.hpp"
 #include "service/revisions/revision_intake.hpp"
 #include "service/runs/run_service.hpp"
 #include "service/state/readiness.hpp"
 #include "service/tables/table_catalog.hpp"
-
-namespace fitgauge::store {
-class Database;
-class DirectoryLock;
-struct MeasurementRow;
-struct Stores;
-struct VerifyReport;
-}  // namespace fitgauge::store
 
 namespace fitgauge::app {
 
@@ -131,8 +116,8 @@ class Application {
  private:
   Application();
   Result<Verification> verification_of(Result<store::VerifyReport> report) const;
-  bool take_names(const store::Stores& stores);
-  std::optional<std::string> check_leaf(const store::MeasurementRow& row) const;
+  bool take_names(const Stores& stores);
+  std::optional<std::string> check_leaf(const MeasurementRow& row) const;
   std::optional<tlog::Hash> kept_node(std::int64_t origin, const tlog::Node& node) const;
 
   // Declared in the order of construction: each member uses only those above it.
@@ -142,7 +127,7 @@ class Application {
   enum class Stage { Opening, Open, Closing };
   std::atomic<Stage> stage_ = Stage::Opening;
   std::unique_ptr<store::DirectoryLock> folder_;  ///< of a daemon whose database is on a server
-  std::unique_ptr<store::Database> database_;
+  std::unique_ptr<Database> database_;
   std::unique_ptr<TableCatalog> tables_;
   std::unique_ptr<LogService> log_;
   std::unique_ptr<LogIntake> intake_;

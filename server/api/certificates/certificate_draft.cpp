@@ -3,13 +3,9 @@
 #include <sstream>
 
 #include "api/measurements/measurement_codec.hpp"
-#include "api/services.hpp"
-#include "base/json/json_writer.hpp"
-#include "base/length.hpp"
 #include "metrology/gauging/gauge.hpp"
 #include "record/record.hpp"
 #include "record/verdict_codec.hpp"
-#include "tables/standards/designated_limits.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -3,7 +3,6 @@
 #include "api/plans/characteristic_key.hpp"
 #include "api/resources.hpp"
 #include "formats/certificate/certificate.hpp"
-#include "record/measurement.hpp"
 #include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {

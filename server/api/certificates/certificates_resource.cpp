@@ -1,11 +1,8 @@
-#include "api/resources.hpp"
-
 #include "api/certificates/certificate_draft.hpp"
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_listing.hpp"
 #include "service/jobs.hpp"
 #include "service/log/log_service.hpp"
-#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -17,7 +14,7 @@ constexpr std::size_t kMostBytes = std::size_t{16} << 20;
 constexpr std::string_view kPdf = "application/pdf";
 constexpr std::string_view kJson = "application/json";
 
-Result<CertificateOrder> order_of(const http::Request& request) {
+Result<CertificateOrder> order_of(const Request& request) {
   CertificateOrder order;
   for (const std::string_view name : {"order", "part_id"}) {
     if (const auto value = request.text(name)) order.of.emplace_back(name, *value);
@@ -35,10 +32,10 @@ Result<CertificateOrder> order_of(const http::Request& request) {
   return order;
 }
 
-http::Response written(CertificateDraft& draft, Timestamp now, const std::string& checkpoint,
-                       const certificate::Letterhead& letterhead) {
+Response written(CertificateDraft& draft, Timestamp now, const std::string& checkpoint,
+                 const certificate::Letterhead& letterhead) {
   if (draft.order().as_json) return {200, std::string(kJson), draft.json(now, checkpoint)};
-  http::Response response(200, std::string(kPdf), draft.pdf(now, checkpoint, letterhead));
+  Response response(200, std::string(kPdf), draft.pdf(now, checkpoint, letterhead));
   return std::move(response).with("Content-Disposition", "inline; filename=\"certificate.pdf\"");
 }
 
@@ -48,20 +45,18 @@ void finish(const Services& services, const std::shared_ptr<CertificateDraft>& d
             const SharedResponder& shared) {
   const auto last = services.measurements.parse_id(draft->last_id());
   if (!last) return shared->fail(last.error());
-  services.log.prove(
-      *last, [&services, draft, shared](const Result<app::LogService::Proof>& proof) {
-        if (!proof) return shared->fail(proof.error());
-        services.jobs.figures.run(
-            [&services, now = services.clock.now(), head = proof->head,
-             draft]() -> Result<http::Response> {
-              return written(*draft, now, head->note, services.letterhead).with("Vary", "Accept");
-            },
-            answer_by(shared));
-      });
+  services.log.prove(*last, [&services, draft,
+                             shared](const Result<app::LogService::Proof>& proof) {
+    if (!proof) return shared->fail(proof.error());
+    services.jobs.figures.run(
+        [&services, now = services.clock.now(), head = proof->head, draft]() -> Result<Response> {
+          return written(*draft, now, head->note, services.letterhead).with("Vary", "Accept");
+        },
+        answer_by(shared));
+  });
 }
 
-void make_certificate(const Services& services, const http::Request& request,
-                      http::Responder responder) {
+void make_certificate(const Services& services, const Request& request, Responder responder) {
   auto order = order_of(request);
   if (!order) return responder.fail(order.error());
   const auto query = measurement_query(services, request);
@@ -107,17 +102,13 @@ void make_certificate(const Services& services, const http::Request& request,
       });
 }
 
-std::vector<http::Parameter> parameters() {
-  std::vector<http::Parameter> all = measurement_filter_parameters();
-  const std::vector<http::Parameter> others = {
-      {.name = "title",
-       .type = http::Text{200},
-       .description = "First line of the report (default: Inspection report)"},
-      {.name = "company", .type = http::Text{200}, .description = "Company that issues the report"},
-      {.name = "customer", .type = http::Text{200}, .description = "Customer on the report"},
-      {.name = "paper",
-       .type = http::Words{{"a4", "letter"}},
-       .description = "Size of the sheets (default: a4)"},
+std::vector<Parameter> parameters() {
+  std::vector<Parameter> all = measurement_filter_parameters();
+  const std::vector<Parameter> others = {
+      query("title", http::Text{200}, "First line of the report (default: Inspection report)"),
+      query("company", http::Text{200}, "Company that issues the report"),
+      query("customer", http::Text{200}, "Customer on the report"),
+      query("paper", http::Words{{"a4", "letter"}}, "Size of the sheets (default: a4)"),
   };
   all.insert(all.end(), others.begin(), others.end());
   return all;

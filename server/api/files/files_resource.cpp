@@ -5,9 +5,7 @@
 #include "api/wire/request_facts.hpp"
 #include "base/json/body_forms.hpp"
 #include "base/text.hpp"
-#include "service/files/file_service.hpp"
 #include "service/jobs.hpp"
-#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -17,7 +15,7 @@ using interpreter::ControlPath;
 constexpr std::size_t kBodyLimit = std::size_t{8} << 20;
 
 /// `nc_prog/8255/8255.h` is TNC:\nc_prog\8255\8255.h.
-Result<ControlPath> path_of(const http::Request& request) {
+Result<ControlPath> path_of(const Request& request) {
   return ControlPath::parse(std::string(app::kDrive) + std::string(*request.text("path")));
 }
 
@@ -40,7 +38,7 @@ std::string href(std::string_view path) {
   return out;
 }
 
-void put_file(const Services& services, const http::Request& request, http::Responder responder) {
+void put_file(const Services& services, const Request& request, Responder responder) {
   auto path = path_of(request);
   if (!path) return responder.fail(path.error());
   const std::string location = href(path->text());
@@ -52,38 +50,36 @@ void put_file(const Services& services, const http::Request& request, http::Resp
         [shared, location, tag = *tag](const Result<bool>& created) {
           if (!created) return shared->fail(created.error());
           shared->answer(
-              http::Response(*created ? 201 : 200).with("Location", location).with("ETag", tag));
+              Response(*created ? 201 : 200).with("Location", location).with("ETag", tag));
         });
   };
   services.jobs.orders.run(
       [&request]() -> Result<std::string> { return etag_of_text(request.body()); }, put);
 }
 
-void get_file(const Services& services, const http::Request& request, http::Responder responder) {
+void get_file(const Services& services, const Request& request, Responder responder) {
   auto path = path_of(request);
   if (!path) return responder.fail(path.error());
-  services.files.read(*std::move(path),
-                      answer_with(std::move(responder),
-                                  [if_match = preconditions_of(request).if_match](
-                                      app::DiskFile file) -> Result<http::Response> {
-                                    const std::string tag = etag_of_text(file.bytes);
-                                    if (!Preconditions{.if_match = if_match}.hold(tag))
-                                      return other_state();
-                                    http::Response response = foreign_bytes(
-                                        "application/octet-stream", std::move(file.bytes));
-                                    response.etag = tag;
-                                    return response;
-                                  }));
+  services.files.read(
+      *std::move(path),
+      answer_with(
+          std::move(responder),
+          [if_match = preconditions_of(request).if_match](app::DiskFile file) -> Result<Response> {
+            const std::string tag = etag_of_text(file.bytes);
+            if (!Preconditions{.if_match = if_match}.hold(tag)) return other_state();
+            Response response = foreign_bytes("application/octet-stream", std::move(file.bytes));
+            response.etag = tag;
+            return response;
+          }));
 }
 
-void delete_file(const Services& services, const http::Request& request,
-                 http::Responder responder) {
+void delete_file(const Services& services, const Request& request, Responder responder) {
   auto path = path_of(request);
   if (!path) return responder.fail(path.error());
   services.files.remove(
       *path, caller_text(request), text_precondition_of(request),
       services.runs.queued([&](const app::RunOrder& order) { return order.names(*path); }),
-      answer_with(std::move(responder), [](bool) { return http::Response(204); }));
+      answer_with(std::move(responder), [](bool) { return Response(204); }));
 }
 
 }  // namespace
@@ -104,7 +100,7 @@ void members(auto& v, const FilesAnswer& answer) {
   v.member("files", answer.files, "Sorted by path");
 }
 
-void list_files(const Services& services, const http::Request& request, http::Responder responder) {
+void list_files(const Services& services, const Request& request, Responder responder) {
   std::string prefix(request.text("prefix").value_or(""));
   std::replace(prefix.begin(), prefix.end(), '/', '\\');
   if (!ascii_iequals(prefix.substr(0, app::kDrive.size()), app::kDrive))
@@ -115,27 +111,25 @@ void list_files(const Services& services, const http::Request& request, http::Re
                       }));
 }
 
-Result<http::Response> act_on(app::RunService& runs, const ControlPath& path, bool formats,
-                              std::optional<std::string> draft) {
+Result<Response> act_on(app::RunService& runs, const ControlPath& path, bool formats,
+                        std::optional<std::string> draft) {
   if (formats) {
     auto text = TRY(runs.format(path));
-    return http::Response(200, "text/plain; charset=utf-8", std::move(text));
+    return Response(200, "text/plain; charset=utf-8", std::move(text));
   }
   auto found = TRY(runs.check(path, std::move(draft)));
-  return http::Response(200, "application/json", diagnostics_json(found));
+  return Response(200, "application/json", diagnostics_json(found));
 }
 
 /// `action=check` and `action=format`.
-void act_on_file(const Services& services, const http::Request& request,
-                 http::Responder responder) {
+void act_on_file(const Services& services, const Request& request, Responder responder) {
   const auto path = path_of(request);
   if (!path) return responder.fail(path.error());
   const bool formats = request.text("action") == "format";
   std::optional<std::string> draft;
   if (!request.body().empty()) draft = std::string(request.body());
   services.jobs.orders.run(
-      [&services, path = *path, formats,
-       draft = std::move(draft)]() mutable -> Result<http::Response> {
+      [&services, path = *path, formats, draft = std::move(draft)]() mutable -> Result<Response> {
         auto done = act_on(services.runs, path, formats, std::move(draft));
         if (done) return done;
         Error error = std::move(done).error();
@@ -146,7 +140,7 @@ void act_on_file(const Services& services, const http::Request& request,
       answer_by(share(std::move(responder))));
 }
 
-const http::Parameter kPath =
+const Parameter kPath =
     path_parameter("path", "nc_prog/8255/8255.h is TNC:\\nc_prog\\8255\\8255.h");
 
 }  // namespace
@@ -159,8 +153,7 @@ void add_file_schemas(Schemas& schemas) {
 void add_files_routes(Routes& add) {
   add("GET /v1/files listFiles viewer", list_files,
       {.summary = "The files of the control's disk",
-       .parameters = {{.name = "prefix",
-                       .description = "Only paths with this beginning: nc_prog/8255/"}},
+       .parameters = {query("prefix", "Only paths with this beginning: nc_prog/8255/")},
        .outcomes = {{.meaning = "The files", .schema = "Files"}}});
   add("GET /v1/files/{path*} getFile viewer", get_file,
       {.summary = "A file, byte for byte",

@@ -1,16 +1,143 @@
-#include "api/resources.hpp"
-
 #include "api/handlers.hpp"
-#include "api/limits/fit_of_values.hpp"
 #include "api/limits/limits_codec.hpp"
+#include "api/measurements/measurement_listing.hpp"
+#include "api/resources.hpp"
+#include "api/services.hpp"
+#include "api/statistics/value_selection.hpp"
 #include "api/wire/formulas.hpp"
+#include "base/json/json_writer.hpp"
 #include "base/text.hpp"
 #include "metrology/statistics/fit_analysis.hpp"
+#include "service/jobs.hpp"
 #include "service/tables/table_catalog.hpp"
 #include "tables/iso286/tolerance_class.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::api {
 namespace {
+
+constexpr std::string_view kHole = "hole";
+constexpr std::string_view kShaft = "shaft";
+
+/// The values of one side of a fit, with their figures.
+struct MeasuredSide {
+  SelectedValues selected{};
+  std::string as_of{};
+  metrology::Capability capability{};
+
+  metrology::MeasuredSizes sizes() const { return {capability.mean, capability.overall}; }
+};
+
+void members(auto& v, const MeasuredSide& side) {
+  v.member("selection", selection_of(side.selected, side.as_of), "Measurements of the figure");
+  v.member("mean", side.capability.mean, Finite{}, "Value in mm");
+  v.member("standard_deviation_overall", side.capability.overall, Finite{}, "Value in mm");
+  v.member("stable", side.capability.stable, "true if no rule is broken");
+}
+
+struct StoredClearance {
+  MeasuredSide hole{};
+  MeasuredSide shaft{};
+  metrology::MeasuredClearance clearance{};
+};
+void members(auto& v, const StoredClearance& stored) {
+  constexpr long double kMicrometres = 1000;
+  const metrology::MeasuredClearance& clearance = stored.clearance;
+  v.member("probability_of_interference", clearance.probability_of_interference, Finite{},
+           "Independent and normal, as measured");
+  v.member("mean_clearance_um", kMicrometres * clearance.mean, Finite{});
+  v.member("standard_deviation_um", kMicrometres * clearance.standard_deviation, Finite{},
+           "Figure of the clearance");
+  v.member("stable", stored.hole.capability.stable && stored.shaft.capability.stable,
+           "Both distributions are stable; if not, future parts may differ");
+  v.member("hole", stored.hole);
+  v.member("shaft", stored.shaft);
+}
+
+Error of_side(std::string_view side, Error error) {
+  error.message = fmt::format("the stored values of the {}: {}", side, error.message);
+  return error;
+}
+
+/// @errors QueryInvalid if this side has no filter
+Result<app::MeasurementQuery> side_query(const Services& services, const Request& request,
+                                         std::string_view side) {
+  const std::string prefix = fmt::format("{}_", side);
+  const std::string_view query = request.query();
+  if (!query.starts_with(prefix) && query.find('&' + prefix) == std::string_view::npos) {
+    const std::string wanted = prefix + "characteristic";
+    return Error{ErrorCode::QueryInvalid,
+                 fmt::format("a clearance needs stored holes and shafts: select the {0}s too, for "
+                             "example by {0}_characteristic or {0}_designation",
+                             side),
+                 wanted};
+  }
+  return measurement_query(services, request, prefix);
+}
+
+Result<MeasuredSide> read_side(const Services& services, const app::MeasurementQuery& query,
+                               const iso286::LimitsOfSize& limits, bool ignores_subgroups) {
+  ValueSelection selection;
+  auto as_of = TRY(selection.read(services.measurements, query));
+  auto selected = TRY(std::move(selection).selected(ignores_subgroups));
+  if (selected.lower_limit != limits.lower_limit() ||
+      selected.upper_limit != limits.upper_limit()) {
+    const auto mm = [](const std::optional<Length>& limit) {
+      return limit ? format_mm(*limit) : std::string("none");
+    };
+    return Error{ErrorCode::LimitsMixed,
+                 fmt::format("they have the limits {} and {} mm, the fit has {} and {} mm",
+                             mm(selected.lower_limit), mm(selected.upper_limit),
+                             format_mm(limits.lower_limit()), format_mm(limits.upper_limit()))};
+  }
+  constexpr long double kConfidence = 0.95L;
+  auto capability = TRY(metrology::assess_capability(selected.data, selected.limits, kConfidence));
+  selected.data = {};
+  return MeasuredSide{std::move(selected), std::move(as_of), std::move(capability)};
+}
+
+/// Filters of the stored values of a fit: the filters of a list twice, `hole_…` and `shaft_…`.
+std::vector<Parameter> fit_filter_parameters() {
+  std::vector<Parameter> parameters;
+  for (const std::string_view side : {kHole, kShaft}) {
+    auto filters = measurement_filter_parameters(fmt::format("{}_", side));
+    for (Parameter& filter : filters) {
+      filter.description = fmt::format("Stored {}s: {}", side, filter.description);
+      parameters.push_back(std::move(filter));
+    }
+  }
+  parameters.push_back(subgroups_parameter());
+  return parameters;
+}
+
+/// Writes the member `stored` of a fit.
+using WriteStored = std::function<void(JsonWriter&)>;
+
+/// Reads the values that the filters of a request select, for the probability of interference from
+/// their location and spread.
+/// @param done receives the writer of the result; QueryInvalid if holes or shafts are not selected;
+/// LimitsMixed if their limits are not the fit's; the errors of a capability with the name of the
+/// side
+void read_fit_of_values(const Services& services, const Request& request, const iso286::Fit& fit,
+                        std::function<void(Result<WriteStored>)> done) {
+  auto holes = side_query(services, request, kHole);
+  if (!holes) return done(holes.error());
+  auto shafts = side_query(services, request, kShaft);
+  if (!shafts) return done(shafts.error());
+  services.jobs.figures.run(
+      [&services, fit, holes = *std::move(holes), shafts = *std::move(shafts),
+       ignores = ignores_subgroups(request)]() -> Result<WriteStored> {
+        auto hole = read_side(services, holes, fit.hole, ignores);
+        if (!hole) return of_side(kHole, hole.error());
+        auto shaft = read_side(services, shafts, fit.shaft, ignores);
+        if (!shaft) return of_side(kShaft, shaft.error());
+        const auto clearance = metrology::clearance_of(hole->sizes(), shaft->sizes());
+        return WriteStored(
+            [stored = StoredClearance{*std::move(hole), *std::move(shaft), clearance}](
+                JsonWriter& json) { write_body(json.key("stored"), stored); });
+      },
+      done);
+}
 
 using iso286::ToleranceTables;
 
@@ -106,11 +233,11 @@ std::string fit_json(const iso286::FitDesignation& designation, const iso286::Fi
       [&](JsonWriter& json) { write_fit_members(json, fit, designation, tables, stored); });
 }
 
-Result<iso286::FitDesignation> of_two_segments(const http::Request& request) {
+Result<iso286::FitDesignation> of_two_segments(const Request& request) {
   return read_fit(*request.text("hole"), *request.text("shaft"));
 }
 
-Result<iso286::FitDesignation> of_one_segment(const http::Request& request) {
+Result<iso286::FitDesignation> of_one_segment(const Request& request) {
   const std::string_view text = *request.text("fit");
   const std::size_t stroke = text.find('/');
   if (stroke == std::string_view::npos) return iso286::parse_fit_designation(text);
@@ -123,14 +250,13 @@ template <class Designation>
 http::AsyncHandler answer_fit(const Routes& add, Designation designation_of) {
   auto from_tables = ResponseCache::of_revision(
       add.cache,
-      [designation_of](const http::Request& request,
-                       const ToleranceTables& tables) -> Result<http::Response> {
+      [designation_of](const Request& request, const ToleranceTables& tables) -> Result<Response> {
         const auto designation = TRY(designation_of(request));
         const auto fit = TRY(find_fit(designation, tables));
         return tagged_json(fit_json(designation, fit, tables), etag_of(tables));
       });
   return [&services = add.services, designation_of, from_tables = std::move(from_tables)](
-             const http::Request& request, http::Responder responder) {
+             const Request& request, Responder responder) {
     if (request.query().empty() || asks_for_revision_alone(request)) {
       return from_tables(request, std::move(responder));
     }
@@ -155,7 +281,7 @@ http::AsyncHandler answer_fit(const Routes& add, Designation designation_of) {
 }
 
 /// Adds the parameters that select stored values to those of a path.
-std::vector<http::Parameter> with_filters(std::vector<http::Parameter> parameters) {
+std::vector<Parameter> with_filters(std::vector<Parameter> parameters) {
   const auto filters = fit_filter_parameters();
   parameters.insert(parameters.end(), filters.begin(), filters.end());
   parameters.push_back(revision_parameter());
@@ -177,7 +303,7 @@ Result<void> write_found(JsonWriter& json, const metrology::FoundFit& found,
   return {};
 }
 
-Result<http::Response> search_fits(const http::Request& request, const ToleranceTables& tables) {
+Result<Response> search_fits(const Request& request, const ToleranceTables& tables) {
   const auto size = TRY(iso286::NominalSize::make(*request.length("nominal_mm")));
   const metrology::ClearanceBounds bounds{.least = *request.length("min_clearance_um"),
                                           .most = *request.length("max_clearance_um")};
@@ -197,6 +323,8 @@ Result<http::Response> search_fits(const http::Request& request, const Tolerance
 }
 
 }  // namespace
+
+std::string stored_clearance_schema() { return schema_of<StoredClearance>(Side::Answer); }
 
 void add_fits_routes(Routes& add) {
   add("GET /v1/fits/{hole}/{shaft} getFit open", answer_fit(add, of_two_segments),
@@ -232,9 +360,8 @@ void add_fits_routes(Routes& add) {
                        .type = http::LengthIn{.unit = http::LengthUnit::Micrometre},
                        .required = true,
                        .description = "Greatest clearance allowed"},
-                      {.name = "limit",
-                       .type = http::Integer{.min = 1, .max = 1000},
-                       .description = "Maximum number of fits, 1 to 1000 (default: 100)"},
+                      query("limit", http::Integer{.min = 1, .max = 1000},
+                            "Maximum number of fits, 1 to 1000 (default: 100)"),
                       revision_parameter()},
        .outcomes = {{.meaning = "The fits found", .schema = "FoundFits"}},
        .refusals = {422}});

@@ -1,10 +1,6 @@
 #include "api/limits/limits_codec.hpp"
 
-#include "api/limits/fit_of_values.hpp"
 #include "api/resources.hpp"
-#include "api/services.hpp"
-#include "metrology/gauging/gauge.hpp"
-#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::api {
 
@@ -67,8 +63,8 @@ std::string designation_text(Length nominal_size, std::string_view class_name) {
   return text += class_name;
 }
 
-http::Response tagged_json(std::string body, std::string etag) {
-  http::Response response(200, "application/json", std::move(body));
+Response tagged_json(std::string body, std::string etag) {
+  Response response(200, "application/json", std::move(body));
   response.etag = etag.insert(etag.size() - 1, '.' + std::string(kVersion));
   return response;
 }

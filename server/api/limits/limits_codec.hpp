@@ -23,7 +23,7 @@ std::string designation_text(Length nominal_size, std::string_view class_name);
 
 /// 200 with a JSON text and its entity tag, to which the release is added: another one may compute
 /// another answer of the same tables.
-http::Response tagged_json(std::string body, std::string etag);
+Response tagged_json(std::string body, std::string etag);
 
 /// Entity tag of results from the tables: it changes with their revision.
 std::string etag_of(const iso286::ToleranceTables& tables);

@@ -1,6 +1,4 @@
-
 #include "api/limits/limits_codec.hpp"
-#include "api/resources.hpp"
 #include "api/statistics/computation.hpp"
 #include "api/wire/formulas.hpp"
 #include "metrology/statistics/fit_analysis.hpp"
@@ -12,30 +10,28 @@ namespace {
 
 using iso286::ToleranceTables;
 
-Result<http::Response> limits_response(iso286::NominalSize size, std::string_view class_name,
-                                       const ToleranceTables& tables) {
+Result<Response> limits_response(iso286::NominalSize size, std::string_view class_name,
+                                 const ToleranceTables& tables) {
   const auto limits = TRY(tables.limits_of_size(size, class_name));
   return tagged_json(
       json_object([&](JsonWriter& json) { write_limits_members(json, limits, tables); }),
       etag_of(tables));
 }
 
-Result<http::Response> limits_response(const Result<standards::DesignatedLimits>& limits) {
+Result<Response> limits_response(const Result<standards::DesignatedLimits>& limits) {
   if (!limits) return limits.error();
   return tagged_json(json_object([&](JsonWriter& json) { write_limits_members(json, *limits); }),
                      etag_of(*limits->standard));
 }
 
-Result<http::Response> limits_of_designation(const http::Request& request,
-                                             const ToleranceTables& tables) {
+Result<Response> limits_of_designation(const Request& request, const ToleranceTables& tables) {
   const std::string_view text = *request.text("designation");
   if (standards::is_designation(text)) return limits_response(standards::limits_of(text));
   const auto designation = TRY(iso286::parse_designation(*request.text("designation")));
   return limits_response(designation.nominal_size, designation.class_name, tables);
 }
 
-Result<http::Response> limits_of_query(const http::Request& request,
-                                       const ToleranceTables& tables) {
+Result<Response> limits_of_query(const Request& request, const ToleranceTables& tables) {
   if (const auto name = *request.text("tolerance_class"); standards::is_class(name)) {
     return limits_response(standards::limits_of(*request.length("nominal_mm"), name));
   }
@@ -84,7 +80,7 @@ void members(auto& v, const LimitGaugeAnswer& answer) {
   v.member("no_go", answer.no_go);
 }
 
-Result<http::Response> gauge(const http::Request& request, const iso286::ToleranceTables& tables) {
+Result<Response> gauge(const Request& request, const iso286::ToleranceTables& tables) {
   const auto designation = TRY(iso286::parse_designation(*request.text("designation")));
   const auto limits = TRY(tables.limits_of_size(designation.nominal_size, designation.class_name));
   const auto made = TRY(metrology::limit_gauge(limits, designation.class_name));

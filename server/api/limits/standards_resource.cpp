@@ -1,7 +1,6 @@
 #include "api/resources.hpp"
 
 #include "api/limits/limits_codec.hpp"
-#include "base/json/json_writer.hpp"
 #include "base/text.hpp"
 #include "tables/standards/standard.hpp"
 
@@ -22,8 +21,7 @@ void write_identity(JsonWriter& json, const Standard& standard) {
   if (!standard.left_out.empty()) json.member("left_out", standard.left_out);
 }
 
-Result<http::Response> list(const http::Request& /*request*/,
-                            const iso286::ToleranceTables& /*tables*/) {
+Result<Response> list(const Request& /*request*/, const iso286::ToleranceTables& /*tables*/) {
   std::string body;
   std::string etag = "\"";
   JsonWriter json(body);
@@ -96,7 +94,7 @@ void write_row(JsonWriter& json, std::string_view table, const Row& row,
   json.end_object().end_object();
 }
 
-Result<http::Response> rows(const http::Request& request, const iso286::ToleranceTables& tables) {
+Result<Response> rows(const Request& request, const iso286::ToleranceTables& tables) {
   const std::string_view name = *request.text("name");
   const Standard* standard = standards::find(name);
   if (standard == nullptr) {
@@ -152,7 +150,7 @@ void add_standards_routes(Routes& add) {
                        .description =
                            "Only rows that hold for this size: of a keyway the diameter of "
                            "its shaft"},
-                      {.name = "table", .description = "Only this table"}},
+                      query("table", "Only this table")},
        .outcomes = {{.meaning = "Rows of the table", .schema = "Standard"}},
        .refusals = {404}});
 }

@@ -16,7 +16,7 @@ struct Unused {
   std::string_view name;
   std::string_view reason;
 };
-std::vector<Unused> unused_of(const http::Request& request, Kind rule) {
+std::vector<Unused> unused_of(const Request& request, Kind rule) {
   std::vector<Unused> unused;
   const auto without = [&](bool is_there, std::string_view reason,
                            std::initializer_list<std::string_view> names) {
@@ -47,7 +47,7 @@ bool has(const std::vector<Unused>& unused, std::string_view name) {
 }
 
 /// @errors QueryInvalid
-Result<std::optional<ThermalCorrection>> correction_of(const http::Request& request,
+Result<std::optional<ThermalCorrection>> correction_of(const Request& request,
                                                        const std::vector<Unused>& unused) {
   app::MeasurementFields fields;
   for (const app::MeasurementField& field : app::kThermalFields) {
@@ -74,7 +74,7 @@ struct Limits {
   std::function<void(JsonWriter&)> write_members;
 };
 
-Result<Limits> limits_of(const http::Request& request, const iso286::ToleranceTables& tables) {
+Result<Limits> limits_of(const Request& request, const iso286::ToleranceTables& tables) {
   const std::string_view text = *request.text("designation");
   if (standards::is_designation(text)) {
     auto limits = standards::limits_of(text);
@@ -107,8 +107,7 @@ Result<Limits> limits_of(const http::Request& request, const iso286::ToleranceTa
                 }};
 }
 
-Result<http::Response> verdict(const http::Request& request,
-                               const iso286::ToleranceTables& tables) {
+Result<Response> verdict(const Request& request, const iso286::ToleranceTables& tables) {
   const auto limits = TRY(limits_of(request, tables));
   if (const auto feature = request.text("feature"); feature && *feature != word(limits.feature)) {
     return Error{ErrorCode::QueryInvalid,
@@ -170,9 +169,8 @@ Result<http::Response> verdict(const http::Request& request,
       limits.etag);
 }
 
-http::Parameter parameter_of(const app::MeasurementField& field) {
-  http::Parameter parameter{.name = std::string(field.name),
-                            .description = std::string(field.meaning)};
+Parameter parameter_of(const app::MeasurementField& field) {
+  Parameter parameter = query(std::string(field.name), std::string(field.meaning));
   if (field.number != nullptr) {
     parameter.type = http::Decimal{
         .scale = field.scale, .min = field.accepted.least, .max = field.accepted.most};
@@ -188,7 +186,7 @@ http::Parameter parameter_of(const app::MeasurementField& field) {
 
 void add_verdicts_routes(Routes& add) {
   add("GET /v1/verdicts/{designation} getVerdict open",
-      [&tables = add.services.tables](const http::Request& request, http::Responder responder) {
+      [&tables = add.services.tables](const Request& request, Responder responder) {
         tables_of(tables, request,
                   [&request, answer = answer_by(share(std::move(responder)))](
                       const Result<app::TableCatalog::Tables>& found) {
@@ -201,35 +199,30 @@ void add_verdicts_routes(Routes& add) {
            "small); limits are inclusive. Nothing is stored.",
        .parameters =
            {path_parameter("designation", "25H7, M10-6H, 25 ISO 2768-m"),
-            {.name = "feature",
-             .type = http::Words{{"hole", "shaft"}},
-             .description = "Feature of a general tolerance (default: a distance, with "
-                            "rejects on both sides)"},
-            {.name = "inside_corner",
-             .type = http::Words{{"true", "false"}},
-             .description = "true: the radius or chamfer is that of an inside corner"},
+            query("feature", http::Words{{"hole", "shaft"}},
+                  "Feature of a general tolerance (default: a distance, with "
+                  "rejects on both sides)"),
+            query("inside_corner", http::Words{{"true", "false"}},
+                  "true: the radius or chamfer is that of an inside corner"),
             {.name = "measured_mm",
              .type = http::LengthIn{.round_to_nearest = true},
              .required = true,
              .description = "Measured value, 0 < m <= 100000000; rounded to 1 nm"},
-            {.name = "rule",
-             .type = http::Words{{"simple", "guard_band", "conformance"}},
-             .description = "Decision rule (ISO 14253-1) (default: simple)"},
-            {.name = "uncertainty_um",
-             .type = http::LengthIn{.unit = http::LengthUnit::Micrometre},
-             .description = "u; required by guard_band and conformance"},
+            query("rule", http::Words{{"simple", "guard_band", "conformance"}},
+                  "Decision rule (ISO 14253-1) (default: simple)"),
+            query("uncertainty_um", http::LengthIn{.unit = http::LengthUnit::Micrometre},
+                  "u; required by guard_band and conformance"),
             {.name = "coverage_factor",
              .type = http::Decimal{.scale = 6, .min = 1, .max = 100'000'000},
              .description =
                  "k of guard_band (default: t(0.9545, degrees_of_freedom), 2 without them)"},
-            {.name = "degrees_of_freedom",
-             .type = http::Decimal{.scale = 6,
-                                   .min = app::kDegreesOfFreedom.least,
-                                   .max = app::kDegreesOfFreedom.most},
-             .description = "Degrees of freedom of uncertainty_um (default: infinite)"},
-            {.name = "probability",
-             .type = http::Decimal{.scale = 6, .min = 500'000, .max = 999'999},
-             .description = "Probability of conformance, at least 0.5 (default: 0.95)"},
+            query("degrees_of_freedom",
+                  http::Decimal{.scale = 6,
+                                .min = app::kDegreesOfFreedom.least,
+                                .max = app::kDegreesOfFreedom.most},
+                  "Degrees of freedom of uncertainty_um (default: infinite)"),
+            query("probability", http::Decimal{.scale = 6, .min = 500'000, .max = 999'999},
+                  "Probability of conformance, at least 0.5 (default: 0.95)"),
             revision_parameter()},
        .outcomes = {{.meaning = "The verdict", .schema = "Verdict"}},
        .refusals = {404, 422}});

@@ -10,14 +10,14 @@ namespace {
 
 constexpr std::string_view kText = "text/plain; charset=utf-8";
 
-http::Response text_response(std::string text, std::string_view caching) {
-  return http::Response(200, std::string(kText), std::move(text))
+Response text_response(std::string text, std::string_view caching) {
+  return Response(200, std::string(kText), std::move(text))
       .with("Cache-Control", std::string(caching));
 }
 
 /// The head of the measurements, or of the changes.
 template <bool of_changes>
-void checkpoint(const Services& services, const http::Request&, http::Responder responder) {
+void checkpoint(const Services& services, const Request&, Responder responder) {
   if constexpr (!of_changes) {
     responder.answer(text_response(services.log.head()->note, "no-store"));
   } else {
@@ -28,16 +28,16 @@ void checkpoint(const Services& services, const http::Request&, http::Responder 
 }
 
 template <bool of_changes>
-void keys(const Services& services, const http::Request&, http::Responder responder) {
+void keys(const Services& services, const Request&, Responder responder) {
   responder.answer(text_response(
       of_changes ? services.log.changes_keys() : services.log.verifier_keys(), "no-cache"));
 }
 
 template <bool of_changes>
-void tile(const Services& services, const http::Request& request, http::Responder responder) {
+void tile(const Services& services, const Request& request, Responder responder) {
   services.log.tile(*request.text("path"), of_changes,
                     answer_with(std::move(responder), [](app::LogService::TileBytes tile) {
-                      return http::Response(200, "application/octet-stream", std::move(tile.bytes))
+                      return Response(200, "application/octet-stream", std::move(tile.bytes))
                           .with("Cache-Control",
                                 tile.is_full ? "private, max-age=31536000, immutable" : "no-cache");
                     }));
@@ -52,12 +52,11 @@ std::string proof_json(const app::LogService::Proof& proof) {
   });
 }
 
-void prove(const Services& services, const http::Request& request, http::Responder responder) {
+void prove(const Services& services, const Request& request, Responder responder) {
   const auto id = services.measurements.parse_id(*request.text("id"));
   if (!id) return responder.fail(id.error());
   services.log.prove(*id, answer_with(std::move(responder), [](const auto& proof) {
-    return http::Response(200, "application/json", proof_json(proof))
-        .with("Cache-Control", "no-store");
+    return Response(200, "application/json", proof_json(proof)).with("Cache-Control", "no-store");
   }));
 }
 
@@ -103,17 +102,16 @@ void add_tree_routes(Routes& add) {
 constexpr std::string_view kKinds[] = {"tables", "plan",  "budget",     "gauge",     "calibration",
                                        "study",  "setup", "connection", "catalogue", "key"};
 
-std::optional<std::string> text_of(const http::Request& request, std::string_view name) {
+std::optional<std::string> text_of(const Request& request, std::string_view name) {
   const auto given = request.text(name);
   return given ? std::optional<std::string>(*given) : std::nullopt;
 }
-std::optional<std::int64_t> time_of(const http::Request& request, std::string_view name) {
+std::optional<std::int64_t> time_of(const Request& request, std::string_view name) {
   const auto given = request.time(name);
   return given ? std::optional(given->nanoseconds) : std::nullopt;
 }
 
-void list_changes(const Services& services, const http::Request& request,
-                  http::Responder responder) {
+void list_changes(const Services& services, const Request& request, Responder responder) {
   services.log.changes({.kind = text_of(request, "kind"),
                         .name = text_of(request, "name"),
                         .from_ns = time_of(request, "from"),
@@ -175,17 +173,16 @@ void add_changes_routes(Routes& add) {
            "Tables, plans, budgets, gauges, calibrations, setups, catalogues, connections "
            "and keys, without secrets. A change is never altered or deleted.",
        .parameters =
-           {{.name = "kind",
-             .type = http::Words{{std::begin(kKinds), std::end(kKinds)}},
-             .description = "Changes of this kind"},
-            {.name = "name", .description = "Changes of this name"},
-            {.name = "from", .type = http::Time{}, .description = "Changes from this time on"},
-            {.name = "to", .type = http::Time{}, .description = "Changes before this time"},
+           {query("kind", http::Words{{std::begin(kKinds), std::end(kKinds)}},
+                  "Changes of this kind"),
+            query("name", "Changes of this name"),
+            query("from", http::Time{}, "Changes from this time on"),
+            query("to", http::Time{}, "Changes before this time"),
             {.name = "limit",
              .type = http::Integer{1, 1000},
              .description =
                  "Maximum number of changes of a page, fewer if they are long (default: 100)"},
-            {.name = "after", .description = "`next` or `last` of an earlier page, or an id"}},
+            query("after", "`next` or `last` of an earlier page, or an id")},
        .outcomes = {{.meaning = "A page, oldest first", .schema = "Changes"}}});
 }
 

@@ -1,12 +1,10 @@
 #include "api/handlers.hpp"
 #include "api/resources.hpp"
 #include "api/wire/problem.hpp"
-#include "base/digest.hpp"
 #include "base/json/json_writer.hpp"
 #include "service/jobs.hpp"
 #include "service/log/batch_text.hpp"
 #include "service/log/revisions_text.hpp"
-#include "service/revisions/revision_feed.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -33,15 +31,15 @@ Error refusal(const app::LogIntake::Answer& answer, std::string_view origin) {
                       origin)};
 }
 
-http::Response response_of(const http::Request& request, const app::LogIntake::Answer& answer,
-                           std::string_view origin) {
+Response response_of(const Request& request, const app::LogIntake::Answer& answer,
+                     std::string_view origin) {
   std::string body;
   if (answer.outcome == app::LogIntake::Outcome::Taken) {
     JsonWriter json(body);
     write_head(json, answer.head);
     return {200, "application/json", std::move(body)};
   }
-  http::Response response = problem(refusal(answer, origin), kConflict, request);
+  Response response = problem(refusal(answer, origin), kConflict, request);
   auto& text = std::get<std::string>(response.body);
   text.pop_back();
   text += ",\"head\":";
@@ -51,9 +49,9 @@ http::Response response_of(const http::Request& request, const app::LogIntake::A
   return response;
 }
 
-void put_batch(const Services& services, const http::Request& request, http::Responder responder) {
+void put_batch(const Services& services, const Request& request, Responder responder) {
   services.jobs.intake.run(
-      [&services, &request]() -> Result<http::Response> {
+      [&services, &request]() -> Result<Response> {
         const auto batch =
             TRY(read_batch(*request.text("origin"), *request.integer("from"), request.body()));
         const auto answer = services.intake.take(batch->batch);
@@ -97,12 +95,11 @@ void add_intake_routes(Routes& add) {
 
 namespace {
 
-void get_revisions(const Services& services, const http::Request& request,
-                   http::Responder responder) {
+void get_revisions(const Services& services, const Request& request, Responder responder) {
   services.revisions.read(request.text("station").value_or(""),
                           std::string(request.text("after").value_or("")),
                           answer_with(std::move(responder), [](const auto& page) {
-                            return http::Response(200, "application/json", revisions_text(page))
+                            return Response(200, "application/json", revisions_text(page))
                                 .with("Cache-Control", "no-store");
                           }));
 }
@@ -120,7 +117,7 @@ void add_revisions_routes(Routes& add) {
        .parameters = {{.name = "station",
                        .description =
                            "Ending of the station's ids; its corrections are in the response"},
-                      {.name = "after", .description = "`position` of the last response"}},
+                      query("after", "`position` of the last response")},
        .outcomes = {{.meaning = "Changed documents", .schema = "Revisions"}},
        .refusals = {403}});
 }

@@ -2,7 +2,6 @@
 
 #include "api/wire/formulas.hpp"
 #include "base/csv.hpp"
-#include "base/length.hpp"
 #include "record/record_members.hpp"
 
 namespace fitgauge::api {

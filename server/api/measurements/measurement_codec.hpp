@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/json/json_writer.hpp"
-#include "record/measurement.hpp"
 #include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {

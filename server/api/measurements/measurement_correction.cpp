@@ -1,11 +1,9 @@
 #include "api/measurements/measurement_posting.hpp"
 
-#include "api/wire/request_facts.hpp"
 #include "base/length.hpp"
 #include "record/measurement_row_reader.hpp"
 #include "service/log/log_service.hpp"
 #include "service/measurements/gauges_in_use.hpp"
-#include "service/measurements/measurement_service.hpp"
 #include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::api {
@@ -209,8 +207,7 @@ void find_and_correct(const SharedPosting& posting, const app::RecordName& id) {
 
 }  // namespace
 
-void post_correction(const Services& services, const http::Request& request,
-                     http::Responder responder) {
+void post_correction(const Services& services, const Request& request, Responder responder) {
   const auto id = services.measurements.parse_id(*request.text("id"));
   if (!id) return responder.fail(id.error());
   post_once(services, request, std::move(responder),

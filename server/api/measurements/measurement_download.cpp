@@ -23,7 +23,7 @@ struct Download {
   std::size_t bytes = 0;  ///< of the records that are in the file
 };
 
-Result<aqdef::DfqOptions> options_of(const http::Request& request, std::string_view media_type) {
+Result<aqdef::DfqOptions> options_of(const Request& request, std::string_view media_type) {
   aqdef::DfqOptions options;
   if (const auto name = request.text("time_zone")) {
     if (media_type == kQifType) {
@@ -95,12 +95,11 @@ Result<bool> next_page(Download& download, MeasurementFile* file) {
 
 /// Number of matches. @errors those of MeasurementService::summary
 Result<std::size_t> count(const Download& download) {
-  const auto read = wait_for_result<std::vector<app::MeasurementGroup>>([&](auto done) {
+  const auto read = TRY(wait_for_result<std::vector<app::MeasurementGroup>>([&](auto done) {
     download.services.measurements.summary(download.query, "tolerance_class", done);
-  });
-  if (!read) return read.error();
+  }));
   std::size_t rows = 0;
-  for (const app::MeasurementGroup& group : *read) rows += static_cast<std::size_t>(group.count);
+  for (const app::MeasurementGroup& group : read) rows += static_cast<std::size_t>(group.count);
   return rows;
 }
 
@@ -130,16 +129,16 @@ Result<std::string> make_bytes(Download& download) {
 
 }  // namespace
 
-std::vector<http::Parameter> download_parameters() {
+std::vector<Parameter> download_parameters() {
   return {
-      {.name = "time_zone",
-       .description = "Time zone of times in dfq and xlsx, such as Europe/Berlin (default: UTC)"},
-      {.name = "part_number", .description = "K1001 of a dfq, for values without one"},
-      {.name = "part_description", .description = "K1002, likewise"},
+      query("time_zone",
+            "Time zone of times in dfq and xlsx, such as Europe/Berlin (default: UTC)"),
+      query("part_number", "K1001 of a dfq, for values without one"),
+      query("part_description", "K1002, likewise"),
   };
 }
 
-void send_file(const Services& services, const http::Request& request, http::Responder responder,
+void send_file(const Services& services, const Request& request, Responder responder,
                std::string_view media_type, app::MeasurementQuery query, std::int64_t after,
                std::optional<std::int64_t> limit) {
   auto options = options_of(request, media_type);
@@ -152,12 +151,12 @@ void send_file(const Services& services, const http::Request& request, http::Res
                .after = after,
                .limit = limit ? std::optional(static_cast<std::size_t>(*limit)) : std::nullopt});
   services.jobs.bulk.run(
-      [download]() -> Result<http::Response> {
+      [download]() -> Result<Response> {
         auto bytes = TRY(make_bytes(*download));
         const std::string_view ending = download->media_type == kDfqType   ? "dfq"
                                         : download->media_type == kQifType ? "qif"
                                                                            : "xlsx";
-        return http::Response(200, std::string(download->media_type), std::move(bytes))
+        return Response(200, std::string(download->media_type), std::move(bytes))
             .with("Vary", "Accept")
             .with("Content-Disposition",
                   fmt::format("attachment; filename=\"measurements.{}\"", ending));

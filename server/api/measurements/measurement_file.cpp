@@ -1,6 +1,5 @@
 #include "api/measurements/measurement_file.hpp"
 
-#include "base/length.hpp"
 #include "formats/xlsx/workbook.hpp"
 #include "record/record_members.hpp"
 #include "record/verdict_codec.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "formats/dfq/dfq_writer.hpp"
 #include "formats/qif/qif.hpp"
 #include "record/measurement.hpp"

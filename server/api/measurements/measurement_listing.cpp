@@ -4,7 +4,6 @@
 #include "api/limits/limits_codec.hpp"
 #include "api/measurements/measurement_codec.hpp"
 #include "api/wire/request_facts.hpp"
-#include "http/response.hpp"
 #include "record/note.hpp"
 #include "record/record.hpp"
 #include "service/log/log_service.hpp"
@@ -30,7 +29,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kForms = 
 
 bool is_file(Form form) { return form == Form::Dfq || form == Form::Qif || form == Form::Xlsx; }
 
-Form form_of(const http::Request& request) {
+Form form_of(const Request& request) {
   const auto format = request.text("format");
   const auto found = std::find_if(kForms.begin(), kForms.end(), [&](const auto& form) {
     return format ? form.first == *format : form.second == request.response_type();
@@ -75,7 +74,7 @@ std::string cursor_text(const app::ListPage& page, std::string_view origin) {
 }
 
 /// The id of a measurement is also a cursor, for later measurements.
-Result<Cursor> cursor_of(const Services& services, const http::Request& request) {
+Result<Cursor> cursor_of(const Services& services, const Request& request) {
   const auto text = request.text("after");
   if (!text) return Cursor();
   const std::size_t point = text->find('.');
@@ -103,12 +102,12 @@ class MeasurementStream final : public http::BodyStream,
       : measurements_(measurements), query_(std::move(query)), after_(after), form_(form) {}
 
   /// Reads the first piece: a storage that cannot be read is an error before the first byte.
-  void answer(http::Responder responder) {
+  void answer(Responder responder) {
     if (form_ == Form::Csv) piece_ = measurement_csv_header();
     read([self = shared_from_this(),
           responder = share(std::move(responder))](const Result<void>& read) {
       if (!read) return responder->fail(read.error());
-      http::Response response(200, media_type(self->form_), http::StreamedBody{.source = self});
+      Response response(200, media_type(self->form_), http::StreamedBody{.source = self});
       responder->answer(std::move(response).with("Vary", "Accept"));
     });
   }
@@ -151,8 +150,8 @@ class MeasurementStream final : public http::BodyStream,
   bool is_last_ = false;
 };
 
-void answer_page(const Services& services, const http::Request& request, http::Responder& responder,
-                 Form form, const std::string& rows, const app::ListPage& page) {
+void answer_page(const Services& services, const Request& request, Responder& responder, Form form,
+                 const std::string& rows, const app::ListPage& page) {
   std::string body;
   const std::string cursor = page.next ? cursor_text(page, services.log.origin()) : "";
   if (form == Form::Json) {
@@ -163,7 +162,7 @@ void answer_page(const Services& services, const http::Request& request, http::R
   } else {
     body = (form == Form::Csv ? measurement_csv_header() : std::string()) + rows;
   }
-  http::Response response(200, media_type(form), std::move(body));
+  Response response(200, media_type(form), std::move(body));
   response.with("Vary", "Accept");
   if (page.next) response.with("Link", next_link(request, cursor));
   responder.answer(std::move(response));
@@ -171,54 +170,40 @@ void answer_page(const Services& services, const http::Request& request, http::R
 
 }  // namespace
 
-std::vector<http::Parameter> measurement_filter_parameters(std::string_view prefix) {
-  std::vector<http::Parameter> parameters;
+std::vector<Parameter> measurement_filter_parameters(std::string_view prefix) {
+  std::vector<Parameter> parameters;
   for (const std::string_view name : app::kTextFilters) {
-    parameters.push_back(
-        {.name = std::string(name), .description = fmt::format("Exactly this {}", name)});
+    parameters.push_back(query(std::string(name), fmt::format("Exactly this {}", name)));
   }
-  const std::vector<http::Parameter> others = {
-      {.name = "designation", .description = "`25 H7`, `M10-6H`, `25 ISO 2768-m`"},
-      {.name = "run_id",
-       .description = "Values of this run, of every source if `source` is absent"},
-      {.name = "verdict",
-       .type = http::Words{{"good", "rework", "reject", "indeterminate", "unjudged"}},
-       .description = "Only this verdict"},
-      {.name = "source",
-       .type = http::Words{{"gauge", "simulation", "all"}},
-       .description = "Source of the measurements (default: gauge)"},
-      {.name = "from", .type = http::Time{}, .description = "measured_at from this time on"},
-      {.name = "to", .type = http::Time{}, .description = "measured_at before this time"},
-      {.name = "received_from",
-       .type = http::Time{},
-       .description = "received_at from this time on"},
-      {.name = "received_to", .type = http::Time{}, .description = "received_at before this time"},
-      {.name = "cause", .description = "Values with a note of exactly this cause"},
-      {.name = "notes_from",
-       .type = http::Time{},
-       .description = "Values with a note received from this time on"},
-      {.name = "notes_to",
-       .type = http::Time{},
-       .description = "Values with a note received before this time"},
-      {.name = "confirmed",
-       .type = http::Words{{"true", "false"}},
-       .description = "false leaves out values that a person confirmed although they are far "
-                      "outside; true shows only these values"},
+  const std::vector<Parameter> others = {
+      query("designation", "`25 H7`, `M10-6H`, `25 ISO 2768-m`"),
+      query("run_id", "Values of this run, of every source if `source` is absent"),
+      query("verdict", http::Words{{"good", "rework", "reject", "indeterminate", "unjudged"}},
+            "Only this verdict"),
+      query("source", http::Words{{"gauge", "simulation", "all"}},
+            "Source of the measurements (default: gauge)"),
+      query("from", http::Time{}, "measured_at from this time on"),
+      query("to", http::Time{}, "measured_at before this time"),
+      query("received_from", http::Time{}, "received_at from this time on"),
+      query("received_to", http::Time{}, "received_at before this time"),
+      query("cause", "Values with a note of exactly this cause"),
+      query("notes_from", http::Time{}, "Values with a note received from this time on"),
+      query("notes_to", http::Time{}, "Values with a note received before this time"),
+      query("confirmed", http::Words{{"true", "false"}},
+            "false leaves out values that a person confirmed although they are far "
+            "outside; true shows only these values"),
       {.name = "set_aside",
        .type = http::Words{{"true", "false"}},
        .description =
            "false leaves out values that a note sets aside; true shows only these values"},
-      {.name = "history",
-       .type = http::Words{{"current", "all"}},
-       .description = "all shows corrected rows too"},
+      query("history", http::Words{{"current", "all"}}, "all shows corrected rows too"),
   };
   parameters.insert(parameters.end(), others.begin(), others.end());
-  for (http::Parameter& parameter : parameters) parameter.name.insert(0, prefix);
+  for (Parameter& parameter : parameters) parameter.name.insert(0, prefix);
   return parameters;
 }
 
-Result<app::MeasurementQuery> measurement_query(const Services& services,
-                                                const http::Request& request,
+Result<app::MeasurementQuery> measurement_query(const Services& services, const Request& request,
                                                 std::string_view prefix) {
   const auto named = [prefix](std::string_view name) { return std::string(prefix).append(name); };
   const auto text_of = [&](std::string_view name) { return request.text(named(name)); };
@@ -270,8 +255,7 @@ Result<app::MeasurementQuery> measurement_query(const Services& services,
   return query;
 }
 
-void list_measurements(const Services& services, const http::Request& request,
-                       http::Responder responder) {
+void list_measurements(const Services& services, const Request& request, Responder responder) {
   const auto cursor = cursor_of(services, request);
   if (!cursor) return responder.fail(cursor.error());
   const Form form = form_of(request);

@@ -1,25 +1,22 @@
 #pragma once
 
 #include "api/services.hpp"
-#include "http/route.hpp"
 #include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 
 /// Parameters of a list and of a summary that select measurements.
 /// @param prefix of their names, if a request has several selections: `hole_`
-std::vector<http::Parameter> measurement_filter_parameters(std::string_view prefix = {});
+std::vector<Parameter> measurement_filter_parameters(std::string_view prefix = {});
 
 /// Reads the query of a request to a route with these parameters.
 /// @errors QueryInvalid; DesignationMalformed and other errors of designations.
-Result<app::MeasurementQuery> measurement_query(const Services& services,
-                                                const http::Request& request,
+Result<app::MeasurementQuery> measurement_query(const Services& services, const Request& request,
                                                 std::string_view prefix = {});
 
 /// GET /v1/measurements: a page with its cursor, or, as CSV or NDJSON without `limit`, all that
 /// match as a stream in constant memory; DFQ and XLSX are files made whole.
-void list_measurements(const Services& services, const http::Request& request,
-                       http::Responder responder);
+void list_measurements(const Services& services, const Request& request, Responder responder);
 
 inline constexpr std::string_view kDfqType = "application/octet-stream";
 inline constexpr std::string_view kQifType = "application/xml";
@@ -27,11 +24,11 @@ inline constexpr std::string_view kXlsxType =
     "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet";
 
 /// Parameters of a file in addition to those of a list.
-std::vector<http::Parameter> download_parameters();
+std::vector<Parameter> download_parameters();
 
 /// Answers with a file of the measurements that match, whole or, with a `limit`, a page of them.
 /// @param media_type kDfqType, kQifType or kXlsxType. @param after the cursor.
-void send_file(const Services& services, const http::Request& request, http::Responder responder,
+void send_file(const Services& services, const Request& request, Responder responder,
                std::string_view media_type, app::MeasurementQuery query, std::int64_t after,
                std::optional<std::int64_t> limit);
 

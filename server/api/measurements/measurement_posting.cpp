@@ -11,8 +11,8 @@ namespace {
 /// Decoding more than this would keep other connections of the I/O thread waiting.
 constexpr std::size_t kLargeBody = std::size_t{64} << 10;
 
-http::Response response_of(app::Answer answer, Preference applied) {
-  http::Response response = api::response_of(std::move(answer));
+Response response_of(app::Answer answer, Preference applied) {
+  Response response = api::response_of(std::move(answer));
   if (applied == Preference::Minimal) response.with("Preference-Applied", "return=minimal");
   if (applied == Preference::Representation) {
     response.with("Preference-Applied", "return=representation");
@@ -41,7 +41,7 @@ BatchContext context_of(const Posting& posting, const Basis& basis) {
 void judge_and_record(const SharedPosting& posting) {
   const auto basis = basis_of(posting->services);
   if (!basis) return posting->responder.fail(basis.error());
-  const http::Request& request = posting->request;
+  const Request& request = posting->request;
   MeasurementBatch batch;
   const auto decoded = decode_measurements(request.body(), request.media_type(),
                                            context_of(*posting, *basis), batch);
@@ -55,7 +55,7 @@ void judge_and_record(const SharedPosting& posting) {
 /// Judges on a thread that may block: the first rows are stored while the last are being read.
 Result<void> judge_while_recording(const SharedPosting& posting) {
   const auto basis = TRY(basis_of(posting->services));
-  const http::Request& request = posting->request;
+  const Request& request = posting->request;
   const Preference wanted = preference_of(request);
   MeasurementAnswer rendering(wanted);
   rendering.expect(request.body().size());
@@ -97,7 +97,7 @@ void judge_where_it_may_take_long(const SharedPosting& posting) {
 
 }  // namespace
 
-void post_once(const Services& services, const http::Request& request, http::Responder responder,
+void post_once(const Services& services, const Request& request, Responder responder,
                std::function<void(const SharedPosting&)> first_time) {
   const SharedPosting posting = begin_posting(services, request, std::move(responder));
   if (!posting) return;
@@ -125,8 +125,7 @@ void record(const SharedPosting& posting, MeasurementBatch batch) {
       });
 }
 
-void post_measurements(const Services& services, const http::Request& request,
-                       http::Responder responder) {
+void post_measurements(const Services& services, const Request& request, Responder responder) {
   post_once(services, request, std::move(responder), judge_where_it_may_take_long);
 }
 

@@ -1,25 +1,21 @@
 #pragma once
 
-#include "api/services.hpp"
 #include "api/wire/request_facts.hpp"
-#include "http/route.hpp"
 #include "record/measurement_batch.hpp"
 #include "record/verdict_codec.hpp"
-#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 
 /// Responds to a repeat of an idempotent request from the store; otherwise continues with
 /// `first_time`, on this thread or on a reader's.
-void post_once(const Services& services, const http::Request& request, http::Responder responder,
+void post_once(const Services& services, const Request& request, Responder responder,
                std::function<void(const SharedPosting&)> first_time);
 
 /// Records a batch and answers when it is durable.
 void record(const SharedPosting& posting, MeasurementBatch batch);
 
 /// POST /v1/measurements: reads the body, judges its rows and records them.
-void post_measurements(const Services& services, const http::Request& request,
-                       http::Responder responder);
+void post_measurements(const Services& services, const Request& request, Responder responder);
 
 /// Returns warnings for a value that is stored anyway: an empty acceptance zone; an uncertainty
 /// above a tenth of the tolerance with the simple rule, which ignores it; a gauge that is blocked,
@@ -58,7 +54,6 @@ class MeasurementAnswer final : public app::Rendering {
 
 /// POST /v1/measurements/{id}/corrections: stores a measurement that replaces another one, with a
 /// reason. Missing fields are copied, limits as they were applied.
-void post_correction(const Services& services, const http::Request& request,
-                     http::Responder responder);
+void post_correction(const Services& services, const Request& request, Responder responder);
 
 }  // namespace fitgauge::api

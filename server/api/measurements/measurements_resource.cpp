@@ -5,15 +5,13 @@
 #include "api/measurements/measurement_listing.hpp"
 #include "api/measurements/measurement_posting.hpp"
 #include "record/record.hpp"
-#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 namespace {
 
 constexpr std::size_t kLargestRows = std::size_t{32} << 20;
 
-void find_measurement(const Services& services, const http::Request& request,
-                      http::Responder responder) {
+void find_measurement(const Services& services, const Request& request, Responder responder) {
   const auto id = services.measurements.parse_id(*request.text("id"));
   if (!id) return responder.fail(id.error());
   auto body = std::make_shared<std::string>();
@@ -23,7 +21,7 @@ void find_measurement(const Services& services, const http::Request& request,
                   [body](std::int64_t) { return json_response(std::move(*body)); }));
 }
 
-void summarise(const Services& services, const http::Request& request, http::Responder responder) {
+void summarise(const Services& services, const Request& request, Responder responder) {
   const auto query = measurement_query(services, request);
   if (!query) return responder.fail(query.error());
   const std::string_view group_by = request.text("group_by").value_or("characteristic");
@@ -33,7 +31,7 @@ void summarise(const Services& services, const http::Request& request, http::Res
                                 }));
 }
 
-std::vector<http::Parameter> posting_parameters(std::vector<http::Parameter> parameters = {}) {
+std::vector<Parameter> posting_parameters(std::vector<Parameter> parameters = {}) {
   parameters.push_back(idempotency_parameter());
   parameters.push_back(
       {.name = "Prefer",
@@ -44,37 +42,30 @@ std::vector<http::Parameter> posting_parameters(std::vector<http::Parameter> par
   return parameters;
 }
 
-std::vector<http::Parameter> list_parameters() {
+std::vector<Parameter> list_parameters() {
   auto parameters = measurement_filter_parameters();
-  parameters.push_back({.name = "limit",
-                        .type = http::Integer{.min = 1, .max = 1000},
-                        .description = "Maximum number of rows of a page (default: 100)"});
-  parameters.push_back({.name = "after", .description = "The cursor `next` of the page before"});
-  parameters.push_back({.name = "sort",
-                        .type = http::Words{{"oldest", "newest"}},
-                        .description = "Order by the time of storing (default: oldest first)"});
-  parameters.push_back({.name = "notes",
-                        .type = http::Words{{"shown", "only"}},
-                        .description = "shown adds `notes` to the records in JSON and NDJSON; only "
-                                       "lists only records with notes"});
-  parameters.push_back(
-      {.name = "last",
-       .type = http::Integer{.min = 1, .max = 1000},
-       .description = "Only this number of the newest; not with `limit` or `after`"});
-  parameters.push_back({.name = "format",
-                        .type = http::Words{{"json", "csv", "ndjson", "dfq", "qif", "xlsx"}},
-                        .description = "Format; replaces Accept"});
+  parameters.push_back(query("limit", http::Integer{.min = 1, .max = 1000},
+                             "Maximum number of rows of a page (default: 100)"));
+  parameters.push_back(query("after", "The cursor `next` of the page before"));
+  parameters.push_back(query("sort", http::Words{{"oldest", "newest"}},
+                             "Order by the time of storing (default: oldest first)"));
+  parameters.push_back(query("notes", http::Words{{"shown", "only"}},
+                             "shown adds `notes` to the records in JSON and NDJSON; only "
+                             "lists only records with notes"));
+  parameters.push_back(query("last", http::Integer{.min = 1, .max = 1000},
+                             "Only this number of the newest; not with `limit` or `after`"));
+  parameters.push_back(query("format", http::Words{{"json", "csv", "ndjson", "dfq", "qif", "xlsx"}},
+                             "Format; replaces Accept"));
   const auto others = download_parameters();
   parameters.insert(parameters.end(), others.begin(), others.end());
   return parameters;
 }
 
-std::vector<http::Parameter> summary_parameters() {
+std::vector<Parameter> summary_parameters() {
   auto parameters = measurement_filter_parameters();
   const auto& fields = app::kTextFilters;
-  parameters.push_back({.name = "group_by",
-                        .type = http::Words{{fields.begin(), fields.end()}},
-                        .description = "Field whose values form the groups"});
+  parameters.push_back(query("group_by", http::Words{{fields.begin(), fields.end()}},
+                             "Field whose values form the groups"));
   return parameters;
 }
 

@@ -2,11 +2,8 @@
 
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_posting.hpp"
-#include "api/resources.hpp"
 #include "api/service/document_routes.hpp"
-#include "api/wire/request_facts.hpp"
 #include "record/note.hpp"
-#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -50,14 +47,14 @@ void add_note(const SharedPosting& posting, const app::RecordName& measurement) 
       });
 }
 
-void post_note(const Services& services, const http::Request& request, http::Responder responder) {
+void post_note(const Services& services, const Request& request, Responder responder) {
   const auto id = services.measurements.parse_id(*request.text("id"));
   if (!id) return responder.fail(id.error());
   post_once(services, request, std::move(responder),
             [id = *id](const SharedPosting& posting) { add_note(posting, id); });
 }
 
-void list_notes(const Services& services, const http::Request& request, http::Responder responder) {
+void list_notes(const Services& services, const Request& request, Responder responder) {
   const auto id = services.measurements.parse_id(*request.text("id"));
   if (!id) return responder.fail(id.error());
   services.measurements.list_notes(*id, answer_with(std::move(responder), [](const auto& notes) {
@@ -121,9 +118,7 @@ constexpr KindOfDocument kCatalogues{.kind = app::DocumentKind::Catalogue,
                                      .operations = "Catalogues",
                                      .check = check_catalogue};
 
-http::Parameter measurement_parameter() {
-  return path_parameter("id", "The measurement it is about");
-}
+Parameter measurement_parameter() { return path_parameter("id", "The measurement it is about"); }
 
 }  // namespace
 

@@ -77,10 +77,9 @@ void members(auto& v, const Part& part) {
 
 /// @errors StorageCorrupt.
 Result<std::vector<Reaction>> characteristics_of(const NamedDocument& plan) {
-  const auto json = parse_stored_json(plan.text, "plan");
-  if (!json) return json.error();
+  const auto json = TRY(parse_stored_json(plan.text, "plan"));
   std::vector<Reaction> found;
-  for (const JsonValue& each : json->find("characteristics")->items) {
+  for (const JsonValue& each : json.find("characteristics")->items) {
     const auto has = [&each](std::string_view name) {
       const JsonValue* text = each.find(name);
       return text != nullptr && !text->text.empty();
@@ -122,15 +121,14 @@ Result<void> plan_part(const std::vector<NamedDocument>& plans,
   const std::string name(named.value_or(part.part));
   for (const NamedDocument& plan : plans) {
     if (named && plan.name != name) continue;
-    auto characteristics = characteristics_of(plan);
-    if (!characteristics) return characteristics.error();
-    const auto end = std::ssize(*characteristics);
+    auto characteristics = TRY(characteristics_of(plan));
+    const auto end = std::ssize(characteristics);
     const auto is_planned = [&](const PartValue& value) {
-      return place_in(*characteristics, value) < end;
+      return place_in(characteristics, value) < end;
     };
     if (plan.name == name) fitting.clear();
     if (plan.name == name || std::ranges::all_of(part.values, is_planned)) {
-      fitting.emplace_back(plan.name, *std::move(characteristics));
+      fitting.emplace_back(plan.name, std::move(characteristics));
     }
     if (plan.name == name) break;
   }
@@ -193,7 +191,7 @@ void read_part(const Services& services, std::string_view id, std::optional<std:
       });
 }
 
-void get_part(const Services& services, const http::Request& request, http::Responder responder) {
+void get_part(const Services& services, const Request& request, Responder responder) {
   read_part(services, *request.text("part"), request.text("plan"),
             [shared = share(std::move(responder))](const Result<Part>& part) {
               if (!part) return shared->fail(part.error());
@@ -224,8 +222,7 @@ void add_parts_routes(Routes& add) {
                       "the plan with the name of the part is used, or the only plan that has every "
                       "measured characteristic; without a plan nothing is missing.",
        .parameters = {path_parameter("part", "part_id of its measurements"),
-                      {.name = "plan",
-                       .description = "Part number of the plan to hold it against"}},
+                      query("plan", "Part number of the plan to hold it against")},
        .outcomes = {{.meaning = "The part", .schema = "Part"}},
        .refusals = {404}});
 }

@@ -3,7 +3,6 @@
 #include "api/resources.hpp"
 #include "base/json/body_forms.hpp"
 #include "base/number.hpp"
-#include "record/measurement.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -1,13 +1,9 @@
 #pragma once
 
-#include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/json/schema.hpp"
-#include "nc/klartext/diagnostic.hpp"
 #include "service/documents/document_service.hpp"
-#include "service/runs/control_tables.hpp"
 #include "service/runs/run_service.hpp"
-#include "service/runs/stored_run.hpp"
 
 namespace fitgauge::api {
 

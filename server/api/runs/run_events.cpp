@@ -1,7 +1,6 @@
 #include "api/runs/run_posting.hpp"
 
 #include "api/wire/event_text.hpp"
-#include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
 
 namespace fitgauge::api {
@@ -33,11 +32,10 @@ Result<void> append_screen(std::string& out, const std::string& report, std::siz
   const auto screen = TRY(stored_member(report, "screen", "report of a run"));
   if (screen.empty()) return {};
   std::size_t number = 0;
-  const auto read = parse_stored_json(screen, "report of a run", [&](const JsonValue& line) {
+  TRY(parse_stored_json(screen, "report of a run", [&](const JsonValue& line) {
     if (++number > had) append_line(out, line.text, number);
     return true;
-  });
-  if (!read) return read.error();
+  }));
   return {};
 }
 
@@ -95,15 +93,14 @@ class RunEventStream final : public http::BodyStream,
 
 }  // namespace
 
-http::Response run_events(std::shared_ptr<app::ActiveRun> run,
-                          std::optional<std::string_view> last) {
-  if (last == kEnd) return http::Response(204);
+Response run_events(std::shared_ptr<app::ActiveRun> run, std::optional<std::string_view> last) {
+  if (last == kEnd) return Response(204);
   return event_response(std::make_shared<RunEventStream>(std::move(run), lines_had(last)));
 }
 
-Result<http::Response> finished_run_events(const std::string& report,
-                                           std::optional<std::string_view> last) {
-  if (last == kEnd) return http::Response(204);
+Result<Response> finished_run_events(const std::string& report,
+                                     std::optional<std::string_view> last) {
+  if (last == kEnd) return Response(204);
   std::string body;
   TRY(append_screen(body, report, lines_had(last)));
   append_event(body, kEnd, kEnd, report);

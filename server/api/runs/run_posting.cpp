@@ -7,7 +7,6 @@
 #include "api/wire/request_facts.hpp"
 #include "base/json/json_value.hpp"
 #include "nc/program/check.hpp"
-#include "record/measurement.hpp"
 #include "service/jobs.hpp"
 
 namespace fitgauge::api {
@@ -66,7 +65,7 @@ auto ordered(const Services& services, const Work& work) {
 constexpr std::string_view kRuns = "/v1/runs/";
 
 /// Marks the response to a run that is answered before its end.
-http::Response with_preference(http::Response response) {
+Response with_preference(Response response) {
   return std::move(response).with("Preference-Applied", "respond-async");
 }
 
@@ -115,9 +114,9 @@ void replay(const SharedPosting& posting, app::Answer kept) {
 }
 
 /// The problem document with the findings of the check.
-http::Response invalid_program(const http::Request& request, const std::string& program,
-                               const std::vector<klartext::Diagnostic>& diagnostics) {
-  http::Response response =
+Response invalid_program(const Request& request, const std::string& program,
+                         const std::vector<klartext::Diagnostic>& diagnostics) {
+  Response response =
       problem({ErrorCode::ProgramInvalid, program + " or a program that it calls has errors"},
               std::nullopt, request);
   auto& body = std::get<std::string>(response.body);
@@ -171,16 +170,16 @@ Result<void> start(const SharedPosting& posting) {
   }
   TRY(runs.check_start(order));
   const bool at_once = prefers_async(posting->request);
-  const auto run = runs.start(std::move(order), posting->scope,
-                              [at_once](const app::ActiveRun& r) { return accepted(r, at_once); });
-  if (!run) return run.error();
-  app::Answer answer = accepted(**run, at_once);
+  const auto run =
+      TRY(runs.start(std::move(order), posting->scope,
+                     [at_once](const app::ActiveRun& r) { return accepted(r, at_once); }));
+  app::Answer answer = accepted(*run, at_once);
   if (at_once) {
     posting->responder.answer(with_preference(api::response_of(std::move(answer))));
     return {};
   }
-  (*run)->on_end([posting, location = std::move(answer.location)](
-                     const Result<app::FinishedRun>& end) { answer_end(posting, location, end); });
+  (run)->on_end([posting, location = std::move(answer.location)](
+                    const Result<app::FinishedRun>& end) { answer_end(posting, location, end); });
   return {};
 }
 
@@ -200,7 +199,7 @@ Result<std::shared_ptr<app::ActiveRun>> start_program(const Services& services,
   return ordered(services, [&] { return start(services, program, setup); });
 }
 
-void post_run(const Services& services, const http::Request& request, http::Responder responder) {
+void post_run(const Services& services, const Request& request, Responder responder) {
   const SharedPosting posting = begin_posting(services, request, std::move(responder));
   if (!posting) return;
   services.jobs.orders.run([posting] { return start(posting); },

@@ -1,11 +1,9 @@
 #pragma once
 
 #include "api/services.hpp"
-#include "base/result.hpp"
 #include "http/request.hpp"
 #include "http/response.hpp"
 #include "nc/machine/machine_setup.hpp"
-#include "service/runs/active_run.hpp"
 #include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
@@ -25,18 +23,17 @@ Result<std::shared_ptr<app::ActiveRun>> start_program(const Services& services,
 
 /// POST /v1/runs: checks the order, starts the run and responds at its end, or at once with
 /// `Prefer: respond-async`.
-void post_run(const Services& services, const http::Request& request, http::Responder responder);
+void post_run(const Services& services, const Request& request, Responder responder);
 
 /// Server-Sent Events of a queued or running run: `progress` (status and blocks so far), `output`
 /// (a line of the screen), `end` (the run object). The id of an event is the number of lines sent
 /// so far, or `end`.
 /// @param last id of the last event that the reader has: it gets the lines that follow, and 204
 /// after `end`, so that a browser stops.
-http::Response run_events(std::shared_ptr<app::ActiveRun> run,
-                          std::optional<std::string_view> last);
+Response run_events(std::shared_ptr<app::ActiveRun> run, std::optional<std::string_view> last);
 
 /// Returns the events of a finished run. @errors StorageCorrupt if the report cannot be read.
-Result<http::Response> finished_run_events(const std::string& report,
-                                           std::optional<std::string_view> last);
+Result<Response> finished_run_events(const std::string& report,
+                                     std::optional<std::string_view> last);
 
 }  // namespace fitgauge::api

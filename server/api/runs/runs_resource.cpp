@@ -7,28 +7,26 @@
 #include "api/wire/request_facts.hpp"
 #include "base/json/json_value.hpp"
 #include "base/text.hpp"
-#include "http/response.hpp"
 #include "record/measurement.hpp"
-#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
 namespace {
 
 constexpr std::int64_t kRunsOfAPage = 100;
 
-Result<std::int64_t> id_of(const Services& services, const http::Request& request) {
+Result<std::int64_t> id_of(const Services& services, const Request& request) {
   return services.runs.parse_id(*request.text("id"));
 }
 
-void answer(http::Responder& responder, Result<http::Response> response) {
+void answer(Responder& responder, Result<Response> response) {
   if (!response) return responder.fail(std::move(response).error());
   responder.answer(*std::move(response));
 }
 
 /// Responds with `answer_of(run object as JSON)`, a Result<Response>, for a run in any state.
 template <class Answer>
-void with_run_json(const Services& services, const http::Request& request,
-                   http::Responder responder, const Answer& answer_of) {
+void with_run_json(const Services& services, const Request& request, Responder responder,
+                   const Answer& answer_of) {
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   if (const auto active = services.runs.active(*id)) {
@@ -40,22 +38,20 @@ void with_run_json(const Services& services, const http::Request& request,
   }));
 }
 
-void get_run(const Services& services, const http::Request& request, http::Responder responder) {
+void get_run(const Services& services, const Request& request, Responder responder) {
   with_run_json(services, request, std::move(responder),
                 [](std::string run) { return json_response(std::move(run)); });
 }
 
-void get_parameters(const Services& services, const http::Request& request,
-                    http::Responder responder) {
+void get_parameters(const Services& services, const Request& request, Responder responder) {
   with_run_json(services, request, std::move(responder),
-                [](const std::string& report) -> Result<http::Response> {
+                [](const std::string& report) -> Result<Response> {
                   auto parameters = TRY(stored_member(report, "parameters", "report of a run"));
                   return json_response(parameters.empty() ? "{}" : std::move(parameters));
                 });
 }
 
-void get_request(const Services& services, const http::Request& request,
-                 http::Responder responder) {
+void get_request(const Services& services, const Request& request, Responder responder) {
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   services.runs.find(*id, answer_with(std::move(responder), [](app::StoredRun run) {
@@ -70,8 +66,7 @@ std::string media_type_of(const std::string& path) {
   return html ? "text/html; charset=utf-8" : "text/plain; charset=utf-8";
 }
 
-void get_run_file(const Services& services, const http::Request& request,
-                  http::Responder responder) {
+void get_run_file(const Services& services, const Request& request, Responder responder) {
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   services.runs.file(*id, std::string(*request.text("name")),
@@ -100,7 +95,7 @@ class TraceStream final : public http::BodyStream {
   std::optional<TraceCsv> csv_;
 };
 
-void get_trace(const Services& services, const http::Request& request, http::Responder responder) {
+void get_trace(const Services& services, const Request& request, Responder responder) {
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   const bool csv = wants_csv(request);
@@ -108,16 +103,16 @@ void get_trace(const Services& services, const http::Request& request, http::Res
   services.runs.trace(*id, answer_with(std::move(responder), [csv, packed](app::TraceReader trace) {
     const char* const type = csv ? "text/csv; charset=utf-8; header=present" : "application/json";
     if (auto bytes = packed ? trace.take_packed() : std::nullopt) {
-      return http::Response(200, type, *std::move(bytes))
+      return Response(200, type, *std::move(bytes))
           .with("Content-Encoding", "gzip")
           .with("Vary", "Accept");
     }
     const http::StreamedBody body{std::make_shared<TraceStream>(std::move(trace), csv)};
-    return http::Response(200, type, body).with("Vary", "Accept");
+    return Response(200, type, body).with("Vary", "Accept");
   }));
 }
 
-void get_events(const Services& services, const http::Request& request, http::Responder responder) {
+void get_events(const Services& services, const Request& request, Responder responder) {
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   const auto last = last_event_id(request);
@@ -129,16 +124,16 @@ void get_events(const Services& services, const http::Request& request, http::Re
 }
 
 /// Responds when the run has ended, so that its status shows whether the cancellation was in time.
-void cancel_run(const Services& services, const http::Request& request, http::Responder responder) {
+void cancel_run(const Services& services, const Request& request, Responder responder) {
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   services.runs.cancel(*id, [shared = share(std::move(responder))](const Result<void>& cancelled) {
     if (!cancelled) return shared->fail(cancelled.error());
-    shared->answer(http::Response(204));
+    shared->answer(Response(204));
   });
 }
 
-void list_runs(const Services& services, const http::Request& request, http::Responder responder) {
+void list_runs(const Services& services, const Request& request, Responder responder) {
   app::RunQuery query;
   if (const auto status = request.text("status")) query.state = app::run_state_from_word(*status);
   if (const auto program = request.text("program")) {
@@ -165,22 +160,21 @@ void list_runs(const Services& services, const http::Request& request, http::Res
                      }));
 }
 
-const http::Parameter kId = path_parameter("id", "Name in the run");
+const Parameter kId = path_parameter("id", "Name in the run");
 
 void add_reading_routes(Routes& add) {
   add("GET /v1/runs listRuns viewer", list_runs,
       {.summary = "The runs, the newest first",
-       .parameters = {{.name = "status",
-                       .type = http::Words{{"queued", "running", "completed", "stopped", "failed",
-                                            "limit_exceeded", "cancelled"}},
-                       .description = "Only this status"},
+       .parameters = {query("status",
+                            http::Words{{"queued", "running", "completed", "stopped", "failed",
+                                         "limit_exceeded", "cancelled"}},
+                            "Only this status"),
                       {.name = "program",
                        .description =
                            "Only this program: TNC:\\nc_prog\\8255.h, or nc_prog/8255.h"},
-                      {.name = "limit",
-                       .type = http::Integer{.min = 1, .max = 1000},
-                       .description = "Maximum number of runs of a page (default: 100)"},
-                      {.name = "after", .description = "The cursor `next` of the page before"}},
+                      query("limit", http::Integer{.min = 1, .max = 1000},
+                            "Maximum number of runs of a page (default: 100)"),
+                      query("after", "The cursor `next` of the page before")},
        .outcomes = {{.meaning = "A page", .schema = "RunList"}}});
   add("GET /v1/runs/{id} getRun viewer", get_run,
       {.summary = "One run with all its results",

@@ -1,6 +1,5 @@
 #include "api/runs/setup_codec.hpp"
 
-#include "api/resources.hpp"
 #include "api/runs/setup_machine.hpp"
 #include "api/service/document_routes.hpp"
 #include "service/runs/run_service.hpp"

@@ -1,9 +1,7 @@
 #pragma once
 
 #include "base/json/body_forms.hpp"
-#include "base/json/field_reader.hpp"
 #include "base/json/schema.hpp"
-#include "nc/machine/machine_setup.hpp"
 #include "nc/run/interpreter.hpp"
 #include "service/runs/control_tables.hpp"
 
@@ -136,8 +134,5 @@ void decode_builder(const JsonValue& setup, const std::string& pointer,
 /// setup is then unusable.
 machine::Setup decode_setup(const JsonValue& body, const std::string& pointer,
                             const app::ControlTables& tables, FieldErrors& errors);
-
-/// Setup and all it is made of.
-void add_setup_schemas(Schemas& schemas);
 
 }  // namespace fitgauge::api

@@ -1,7 +1,6 @@
 #include "api/runs/run_codec.hpp"
 
 #include "base/csv.hpp"
-#include "base/json/json_writer.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::api {
@@ -149,14 +148,13 @@ Result<void> TraceCsv::append_line(std::string& out, std::string_view line) {
     }
     out += "\r\n";
   };
-  const Result<JsonValue> move = parse_stored_json(line, "trace of a run");
-  if (!move) return move.error();
+  const auto move = TRY(parse_stored_json(line, "trace of a run"));
   if (columns_.empty()) {
-    columns_ = columns_of(*move);
+    columns_ = columns_of(move);
     append_row([&](const Column& column) { out += column.title(); });
   }
   append_row([&](const Column& column) {
-    const JsonValue* value = move->find(column.member);
+    const JsonValue* value = move.find(column.member);
     if (value != nullptr && !column.axis.empty()) value = value->find(column.axis);
     if (value != nullptr) sheet::append_csv_cell(out, value->text);
   });

@@ -60,7 +60,7 @@ void members(auto& v, const CyclesAnswer& answer) {
 
 namespace {
 
-http::Response list_cycles() {
+Response list_cycles() {
   CyclesAnswer answer;
   for (const auto* cycle : probing::cycles()) answer.cycles.push_back(cycle->descriptor);
   for (const auto& cycle : interpreter::machining_cycles()) {
@@ -79,14 +79,14 @@ const CycleDescriptor* find_descriptor(int number) {
 }
 
 /// If a number means two cycles, the one for probing precedes.
-Result<http::Response> find_cycle(const http::Request& request) {
+Result<Response> find_cycle(const Request& request) {
   const int number = static_cast<int>(*request.integer("number"));
   const CycleDescriptor* cycle = find_descriptor(number);
   if (cycle == nullptr) {
     return Error{ErrorCode::CycleUnknown,
                  "cycle not found: " + std::to_string(number) + "; /v1/cycles lists all"};
   }
-  return http::Response(200, "application/json", body_json(*cycle));
+  return Response(200, "application/json", body_json(*cycle));
 }
 
 }  // namespace
@@ -98,7 +98,7 @@ void add_cycle_schemas(Schemas& schemas) {
 
 void add_cycles_routes(Routes& add) {
   add("GET /v1/cycles listCycles open",
-      [answer = http::prepare(list_cycles())](const http::Request&) -> Result<http::Response> {
+      [answer = http::prepare(list_cycles())](const Request&) -> Result<Response> {
         return answer;
       },
       {.summary = "Every cycle with its parameters and results",

@@ -1,21 +1,18 @@
 #include "api/service/document_routes.hpp"
 
 #include "api/handlers.hpp"
-#include "api/resources.hpp"
 #include "api/statistics/computation.hpp"
 #include "api/wire/request_facts.hpp"
-#include "base/clock.hpp"
 #include "service/jobs.hpp"
 #include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
 namespace {
 
-using Handler = void (*)(const Services&, const KindOfDocument&, const http::Request&,
-                         http::Responder);
+using Handler = void (*)(const Services&, const KindOfDocument&, const Request&, Responder);
 
 http::AsyncHandler of_kind(const Services& services, const KindOfDocument& kind, Handler handler) {
-  return [&services, &kind, handler](const http::Request& request, http::Responder responder) {
+  return [&services, &kind, handler](const Request& request, Responder responder) {
     handler(services, kind, request, std::move(responder));
   };
 }
@@ -24,7 +21,7 @@ std::string_view parameter_name(const KindOfDocument& kind) {
   return kind.parameter.substr(0, kind.parameter.find('*'));
 }
 
-std::string name_in_path(const KindOfDocument& kind, const http::Request& request) {
+std::string name_in_path(const KindOfDocument& kind, const Request& request) {
   return std::string(*request.text(parameter_name(kind)));
 }
 
@@ -34,7 +31,7 @@ std::string names_allowed(const KindOfDocument& kind) {
 }
 
 /// Allowed names, which fit in a path and in a message.
-Result<std::string> name_to_write(const KindOfDocument& kind, const http::Request& request) {
+Result<std::string> name_to_write(const KindOfDocument& kind, const Request& request) {
   std::string name = name_in_path(kind, request);
   const bool printable = std::none_of(name.begin(), name.end(), [&](char c) {
     return static_cast<unsigned char>(c) < ' ' || c == '\x7f' ||
@@ -46,11 +43,10 @@ Result<std::string> name_to_write(const KindOfDocument& kind, const http::Reques
                            names_allowed(kind))};
 }
 
-http::Response written(bool created, std::string answer, std::string_view tag) {
+Response written(bool created, std::string answer, std::string_view tag) {
   const int status = created ? 201 : 200;
-  http::Response response = answer.empty()
-                                ? http::Response(status)
-                                : http::Response(status, "application/json", std::move(answer));
+  Response response =
+      answer.empty() ? Response(status) : Response(status, "application/json", std::move(answer));
   return std::move(response).with("ETag", std::string(tag));
 }
 
@@ -61,9 +57,9 @@ Error at_named(const Error& error) {
 
 /// Answers a change that was stored, once it is heard.
 void answer_change(const Services& services, const KindOfDocument& kind,
-                   const SharedResponder& shared, http::Response response) {
+                   const SharedResponder& shared, Response response) {
   if (kind.changed == nullptr) return shared->answer(std::move(response));
-  const auto kept = std::make_shared<http::Response>(std::move(response));
+  const auto kept = std::make_shared<Response>(std::move(response));
   kind.changed(services, [shared, kept](const Result<void>& heard) {
     if (!heard) return shared->fail(heard.error());
     shared->answer(std::move(*kept));
@@ -71,7 +67,7 @@ void answer_change(const Services& services, const KindOfDocument& kind,
 }
 
 void write(const Services& services, const KindOfDocument& kind, std::string name,
-           CheckedDocument checked, const http::Request& request, const SharedResponder& shared) {
+           CheckedDocument checked, const Request& request, const SharedResponder& shared) {
   std::string tag = etag_of_text(checked.text);
   auto precondition = text_precondition_of(request);
   if (checked.before) {
@@ -94,8 +90,8 @@ void write(const Services& services, const KindOfDocument& kind, std::string nam
                            });
 }
 
-void put(const Services& services, const KindOfDocument& kind, const http::Request& request,
-         http::Responder responder) {
+void put(const Services& services, const KindOfDocument& kind, const Request& request,
+         Responder responder) {
   auto name = name_to_write(kind, request);
   if (!name) return responder.fail(name.error());
   const SharedResponder shared = share(std::move(responder));
@@ -112,8 +108,8 @@ void put(const Services& services, const KindOfDocument& kind, const http::Reque
       });
 }
 
-void get(const Services& services, const KindOfDocument& kind, const http::Request& request,
-         http::Responder responder) {
+void get(const Services& services, const KindOfDocument& kind, const Request& request,
+         Responder responder) {
   services.documents.read(
       kind.kind, name_in_path(kind, request),
       [if_match = preconditions_of(request).if_match,
@@ -121,14 +117,14 @@ void get(const Services& services, const KindOfDocument& kind, const http::Reque
         if (!document) return shared->fail(document.error());
         const std::string tag = etag_of_text(document->text);
         if (!Preconditions{.if_match = if_match}.hold(tag)) return shared->fail(other_state());
-        http::Response response(200, "application/json", std::move(document->text));
+        Response response(200, "application/json", std::move(document->text));
         response.etag = tag;
         shared->answer(std::move(response));
       });
 }
 
-void remove(const Services& services, const KindOfDocument& kind, const http::Request& request,
-            http::Responder responder) {
+void remove(const Services& services, const KindOfDocument& kind, const Request& request,
+            Responder responder) {
   const std::string name = name_in_path(kind, request);
   services.documents.remove(
       kind.kind, name, text_precondition_of(request), caller_text(request),
@@ -137,7 +133,7 @@ void remove(const Services& services, const KindOfDocument& kind, const http::Re
       }),
       [&services, &kind, shared = share(std::move(responder))](const Result<bool>& removed) {
         if (!removed) return shared->fail(removed.error());
-        answer_change(services, kind, shared, http::Response(204));
+        answer_change(services, kind, shared, Response(204));
       });
 }
 
@@ -155,8 +151,8 @@ Result<std::string> list_of(const KindOfDocument& kind,
   return body;
 }
 
-void list(const Services& services, const KindOfDocument& kind, const http::Request&,
-          http::Responder responder) {
+void list(const Services& services, const KindOfDocument& kind, const Request&,
+          Responder responder) {
   services.documents.list(kind.kind, [&kind, shared = share(std::move(responder))](
                                          Result<std::vector<app::NamedDocument>> documents) {
     if (!documents) return shared->fail(documents.error());
@@ -186,7 +182,7 @@ NamedSchema names_schema(std::string name, std::string_view member, const schema
 }
 
 void add_document_routes(Routes& add, const KindOfDocument& kind) {
-  const http::Parameter name =
+  const Parameter name =
       path_parameter(std::string(parameter_name(kind)),
                      fmt::format("Name of {}: {}", kind.one, names_allowed(kind)));
   const std::string pattern = fmt::format("{}/{{{}}}", kind.path, kind.parameter);

@@ -2,8 +2,6 @@
 
 #include "api/resources.hpp"
 #include "base/json/json_writer.hpp"
-#include "base/json/schema.hpp"
-#include "base/result.hpp"
 #include "service/documents/document_service.hpp"
 
 // All documents (texts with a name) have the same four routes, tags and preconditions.

@@ -1,9 +1,7 @@
 #include "api/resources.hpp"
 #include "api/service/commit_stream.hpp"
 #include "api/wire/event_text.hpp"
-#include "http/response.hpp"
 #include "record/record.hpp"
-#include "service/events/event_service.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -66,14 +64,14 @@ void EventStream::take(const app::EventService::Page& page) {
   took(std::move(piece), page.more);
 }
 
-EventStream::Start start_of(const Services& services, const http::Request& request) {
+EventStream::Start start_of(const Services& services, const Request& request) {
   const auto named = last_event_id(request);
   if (!named) return {};
   const auto position = services.events.position_of(*named);
   return {.after = position, .gap = !position};
 }
 
-http::Response stream_events(const Services& services, const http::Request& request) {
+Response stream_events(const Services& services, const Request& request) {
   const auto source = request.text("source");
   // `all` is no source, so that the filter is off.
   return event_response(std::make_shared<EventStream>(
@@ -85,8 +83,8 @@ http::Response stream_events(const Services& services, const http::Request& requ
 
 void add_events_routes(Routes& add) {
   add("GET /v1/events followEvents viewer",
-      [&services = add.services](const http::Request& request) {
-        return Result<http::Response>(stream_events(services, request));
+      [&services = add.services](const Request& request) {
+        return Result<Response>(stream_events(services, request));
       },
       {.summary = "Events as Server-Sent Events",
        .description =
@@ -94,9 +92,8 @@ void add_events_routes(Routes& add) {
            "table.changed the column and the revision in force from then on, note.added the note. "
            "A reader that names the id of the last event it had goes on with the next; `resync` "
            "says that some are gone.",
-       .parameters = {{.name = "source",
-                       .type = http::Words{{"gauge", "simulation", "all"}},
-                       .description = "Source of the measurements (default: gauge)"}},
+       .parameters = {query("source", http::Words{{"gauge", "simulation", "all"}},
+                            "Source of the measurements (default: gauge)")},
        .response_types = {std::string(kEventStreamType)},
        .outcomes = {{.meaning = "Events without an end", .schema = "Event"}}});
   add_last_event_id(add.all.back().parameters);

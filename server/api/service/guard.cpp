@@ -1,7 +1,6 @@
 #include "api/service/guard.hpp"
 
 #include "api/wire/response_cache.hpp"
-#include "base/text.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -12,7 +11,7 @@ constexpr std::string_view kTokenPrefix = "fg_";
 /// roles. `station` also allows administrators, but no operators.
 enum class Access { Public, Open, Viewer, Operator, Admin, Station };
 
-Access access_of(const http::Route& route, const http::Request& request) {
+Access access_of(const http::Route& route, const Request& request) {
   const bool asks_more =
       !request.query().empty() && !route.query_access.empty() && !asks_for_revision_alone(request);
   const std::string_view access = asks_more ? route.query_access : route.access;
@@ -40,7 +39,7 @@ bool is_write(http::Method method) {
 
 /// `Authorization: Bearer fg_…`, or `X-API-Key: fg_…` for clients that cannot set the former.
 /// Empty for credentials of another scheme.
-std::optional<std::string_view> token_of(const http::Request& request) {
+std::optional<std::string_view> token_of(const Request& request) {
   constexpr std::string_view kScheme = "bearer ";
   if (const auto header = request.header("Authorization")) {
     const std::string_view text = trim(*header);
@@ -58,7 +57,7 @@ Error invalid_key() { return {ErrorCode::KeyInvalid, "the key is unknown or revo
 /// A page of another site whose name was made to resolve to this machine addresses it by that name,
 /// and every write of a page has an Origin. An address is no such name, nor is one without a dot:
 /// it is of this machine or its network. No name of the internet ends with a label of digits.
-bool may_be_rebound(const http::Request& request) {
+bool may_be_rebound(const Request& request) {
   if (is_write(request.method()) && !request.header("Origin")) return false;
   std::string_view host = request.header("Host").value_or("localhost");
   if (host.starts_with('[')) return false;
@@ -73,7 +72,7 @@ bool may_be_rebound(const http::Request& request) {
 }  // namespace
 
 /// nginx sends HTTP/1.0 with `Connection: close` by default: its clients would all seem local.
-void Guard::warn_of_proxy(const http::Request& request) const {
+void Guard::warn_of_proxy(const Request& request) const {
   if (!request.is_http_1_0() || !proxy_seen_) return;
   const auto connection = request.header("Connection");
   if (!connection || !ascii_iequals(trim(*connection), "close")) return;
@@ -85,8 +84,8 @@ void Guard::warn_of_proxy(const http::Request& request) const {
       "X-Forwarded-For in the proxy");
 }
 
-Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
-                                                        const http::Route& route) const {
+Result<std::optional<Response>> Guard::operator()(Request& request,
+                                                  const http::Route& route) const {
   const auto origin = is_write(request.method()) ? request.header("Origin") : std::nullopt;
   const bool is_foreign = origin && !ascii_iequals(*origin, request.own_origin());
   if (is_foreign && request.allowed_origin().empty()) {
@@ -96,7 +95,7 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
   }
 
   const Access access = access_of(route, request);
-  if (access == Access::Public) return std::optional<http::Response>();
+  if (access == Access::Public) return std::optional<Response>();
   if (request.is_health_only()) {
     return Error{ErrorCode::Forbidden, "this port answers only /livez and /readyz"};
   }
@@ -118,9 +117,9 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
   if (mode_ == AuthMode::Open && !is_foreign && request.is_local() &&
       (is_open || !may_be_rebound(request))) {
     warn_of_proxy(request);
-    return std::optional<http::Response>();
+    return std::optional<Response>();
   }
-  if (is_open) return std::optional<http::Response>();
+  if (is_open) return std::optional<Response>();
   if (!caller) {
     if (token) return invalid_key();
     return Error{ErrorCode::Unauthenticated,
@@ -133,10 +132,10 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
                  fmt::format("the key {} has the role {}; this needs the role {}", caller->name,
                              app::word(caller->role), app::word(needed))};
   }
-  return std::optional<http::Response>();
+  return std::optional<Response>();
 }
 
-bool Guard::may_continue(const http::Request& request) const {
+bool Guard::may_continue(const Request& request) const {
   const auto* const caller = request.caller<Caller>();
   return caller == nullptr || keys_.is_valid(caller->key);
 }

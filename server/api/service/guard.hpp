@@ -28,13 +28,12 @@ class Guard {
       : keys_(keys), mode_(mode), proxy_seen_(std::move(proxy_seen)), closed_(std::move(closed)) {}
 
   /// The hook of http::ServerHooks; sets the request's caller.
-  Result<std::optional<http::Response>> operator()(http::Request& request,
-                                                   const http::Route& route) const;
+  Result<std::optional<Response>> operator()(Request& request, const http::Route& route) const;
   /// Whether the key that began a streamed body is still valid.
-  bool may_continue(const http::Request& request) const;
+  bool may_continue(const Request& request) const;
 
  private:
-  void warn_of_proxy(const http::Request& request) const;
+  void warn_of_proxy(const Request& request) const;
 
   const app::KeyService& keys_;
   AuthMode mode_;

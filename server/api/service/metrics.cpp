@@ -1,6 +1,5 @@
 #include "api/service/metrics.hpp"
 
-#include "api/services.hpp"
 #include "api/wire/problem.hpp"
 
 namespace fitgauge::api {
@@ -103,7 +102,6 @@ Metrics::Metrics() : parts_(std::make_unique<Parts>()) {
   // Alarms need their series from the start: a series that begins with 1 has no increase.
   for (const ErrorCode code : {
 #define FITGAUGE_ERROR(name, id, title, status) ErrorCode::name,
-#include "base/error_codes.inc"
 #undef FITGAUGE_ERROR
        }) {
     const int status = status_of(code);

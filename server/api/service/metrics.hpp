@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/histogram.hpp"
-#include "base/result.hpp"
 #include "http/server.hpp"
 #include "service/measurements/measurement_service.hpp"
 

@@ -1,9 +1,6 @@
 #include "api/resources.hpp"
 
-#include "api/runs/setup_codec.hpp"
-#include "api/services.hpp"
 #include "base/json/json_writer.hpp"
-#include "base/length.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::api {
@@ -241,7 +238,7 @@ void write_operation(JsonWriter& json, const http::Route& route, const Schemas& 
   json.member("description", route.description.empty() ? route.summary : route.description);
   if (!route.parameters.empty()) {
     json.key("parameters").begin_array();
-    for (const http::Parameter& parameter : route.parameters) {
+    for (const Parameter& parameter : route.parameters) {
       json.begin_object()
           .member("name", parameter.name)
           .member("in", place(parameter.place))
@@ -333,17 +330,12 @@ void write_components(JsonWriter& json, const Schemas& schemas) {
 
 Schemas make_schemas(const Schemas& of_plant) {
   Schemas schemas;
-  add_limits_schemas(schemas);
-  add_statistics_schemas(schemas);
-  add_table_schemas(schemas);
-  add_measurement_schemas(schemas);
-  add_note_schemas(schemas);
-  add_plan_schemas(schemas);
-  add_parts_schemas(schemas);
-  add_file_schemas(schemas);
-  add_setup_schemas(schemas);
-  add_run_schemas(schemas);
-  add_cycle_schemas(schemas);
+  for (AddSchemas* const add :
+       {add_limits_schemas, add_statistics_schemas, add_table_schemas, add_measurement_schemas,
+        add_note_schemas, add_plan_schemas, add_parts_schemas, add_file_schemas, add_setup_schemas,
+        add_run_schemas, add_cycle_schemas}) {
+    add(schemas);
+  }
   schemas.insert(schemas.end(), of_plant.begin(), of_plant.end());
   add_service_schemas(schemas);
   add_examples(schemas);
@@ -374,8 +366,8 @@ void add_openapi_route(Routes& add, const Schemas& of_plant) {
        .tag = "service",
        .outcomes = {{.meaning = "OpenAPI 3.1", .schema = "Description"}}});
   const auto document = http::prepare({200, "application/json", openapi_json(add.all, of_plant)});
-  add.all.back().handler = [document](const http::Request&) -> Result<http::Response> {
-    return http::Response(document);
+  add.all.back().handler = [document](const Request&) -> Result<Response> {
+    return Response(document);
   };
 }
 

@@ -26,7 +26,7 @@ std::string bytes_of(std::span<const unsigned char> bytes) {
 }
 
 Prepared prepare_file(const PageAsset& asset, std::string_view caching) {
-  http::Response response(200, std::string(asset.content_type), bytes_of(asset.plain));
+  Response response(200, std::string(asset.content_type), bytes_of(asset.plain));
   response.with("Cache-Control", std::string(caching))
       .with("Content-Security-Policy", std::string(kPolicy))
       .with("Referrer-Policy", "no-referrer")
@@ -45,22 +45,22 @@ PageFiles prepare_files() {
   return files;
 }
 
-Result<http::Response> answer(const PageFiles& files, std::string_view path) {
+Result<Response> answer(const PageFiles& files, std::string_view path) {
   const auto found = files.find(path);
   if (found == files.end()) {
     return Error{ErrorCode::NotFound, "the page has no file " + std::string(path)};
   }
-  return http::Response(found->second);
+  return Response(found->second);
 }
 
 }  // namespace
 
 void add_page_routes(Routes& add) {
   const auto files = std::make_shared<const PageFiles>(prepare_files());
-  add("GET / getPage open", [files](const http::Request&) { return answer(*files, kEntry); },
+  add("GET / getPage open", [files](const Request&) { return answer(*files, kEntry); },
       {.summary = "The page", .response_types = {"text/html"}, .outcomes = {{.meaning = "HTML"}}});
   add("GET /web/{path*} getPageFile open",
-      [files](const http::Request& request) { return answer(*files, *request.text("path")); },
+      [files](const Request& request) { return answer(*files, *request.text("path")); },
       {.summary = "A file of the page",
        .parameters = {path_parameter("path", "app.js")},
        .response_types = {},

@@ -1,5 +1,4 @@
 #include "api/resources.hpp"
-#include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
 
 namespace fitgauge::api {

@@ -1,8 +1,6 @@
 #include "api/handlers.hpp"
 #include "api/resources.hpp"
 #include "api/service/metrics.hpp"
-#include "api/services.hpp"
-#include "base/digest.hpp"
 #include "base/json/json_writer.hpp"
 #include "service/log/log_service.hpp"
 #include "service/state/readiness.hpp"
@@ -11,9 +9,9 @@
 namespace fitgauge::api {
 namespace {
 
-http::Response live() { return {200, "application/json", std::string(R"({"status":"live"})")}; }
+Response live() { return {200, "application/json", std::string(R"({"status":"live"})")}; }
 
-Result<http::Response> ready(const Services& services) {
+Result<Response> ready(const Services& services) {
   app::Readiness readiness = services.readiness();
   if (!readiness.findings.empty()) {
     const Error& first = readiness.findings.front();
@@ -29,15 +27,15 @@ Result<http::Response> ready(const Services& services) {
     json.member("size", head->checkpoint.size);
     json.member("root", tlog::to_base64(head->checkpoint.root)).end_object();
   });
-  return http::Response(200, "application/json", std::move(body)).with("Cache-Control", "no-store");
+  return Response(200, "application/json", std::move(body)).with("Cache-Control", "no-store");
 }
 
 /// Verdicts are counted at each request; if the storage fails, the other metrics are returned.
-void metrics(const Services& services, const http::Request&, http::Responder responder) {
+void metrics(const Services& services, const Request&, Responder responder) {
   const SharedResponder shared = share(std::move(responder));
   services.verdicts->refresh([&services, shared] {
     shared->answer(
-        http::Response(200, "text/plain; version=0.0.4; charset=utf-8", services.metrics.text()));
+        Response(200, "text/plain; version=0.0.4; charset=utf-8", services.metrics.text()));
   });
 }
 
@@ -105,12 +103,11 @@ void add_service_schemas(Schemas& schemas) {
 }
 
 void add_service_routes(Routes& add) {
-  add("GET /livez live public",
-      [](const http::Request&) -> Result<http::Response> { return live(); },
+  add("GET /livez live public", [](const Request&) -> Result<Response> { return live(); },
       {.summary = "The process responds",
        .outcomes = {{.meaning = "The process responds", .schema = "Live"}}});
   add("GET /readyz ready public",
-      [&services = add.services](const http::Request&) { return ready(services); },
+      [&services = add.services](const Request&) { return ready(services); },
       {.summary = "The service may be used: database, schema and tables are in order",
        .outcomes = {{.meaning = "No problem found", .schema = "Ready"}}});
   add("GET /metrics getMetrics open", metrics,

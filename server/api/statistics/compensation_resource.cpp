@@ -9,7 +9,6 @@
 #include "api/wire/problem.hpp"
 #include "metrology/statistics/compensation.hpp"
 #include "record/record.hpp"
-#include "service/measurements/gauges_in_use.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -194,7 +193,7 @@ class OffsetStream final : public CommitStream {
   std::string told_{};  ///< used by one reading thread at a time
 };
 
-void propose(const Services& services, const http::Request& request, http::Responder responder) {
+void propose(const Services& services, const Request& request, Responder responder) {
   auto query = measurement_query(services, request);
   if (!query) return responder.fail(query.error());
   OffsetOrder order{*std::move(query), request.length("target_mm")};
@@ -229,10 +228,8 @@ void OffsetOrder::find_news(app::MeasurementService& measurements, const GaugesI
 
 void add_compensation_routes(Routes& add) {
   auto parameters = measurement_filter_parameters();
-  parameters.push_back(
-      {.name = "target_mm",
-       .type = http::LengthIn{},
-       .description = "Value to aim at in mm (default: the middle of the limits)"});
+  parameters.push_back(query("target_mm", http::LengthIn{},
+                             "Value to aim at in mm (default: the middle of the limits)"));
   parameters.push_back(
       {.name = "cost",
        .type = http::Decimal{.scale = 6, .min = 1, .max = 1'000'000'000},

@@ -124,10 +124,10 @@ Error at_member(std::string_view name, Error error) {
 
 void add_computation(Routes& add, const Computation& computation) {
   const auto handler = [&services = add.services, compute = computation.compute](
-                           const http::Request& request, http::Responder responder) {
+                           const Request& request, Responder responder) {
     services.jobs.figures_of(request.body().size())
         .run(
-            [compute, &request]() -> Result<http::Response> {
+            [compute, &request]() -> Result<Response> {
               auto body = parse_json(request.body());
               if (!body) {
                 Error error = body.error();

@@ -4,7 +4,6 @@
 #include "base/json/body_forms.hpp"
 #include "base/json/json_value.hpp"
 #include "metrology/statistics/control_chart.hpp"
-#include "metrology/statistics/decimals.hpp"
 
 namespace fitgauge::api {
 

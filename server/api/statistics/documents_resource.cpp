@@ -1,12 +1,8 @@
-#include "api/resources.hpp"
-
 #include "api/handlers.hpp"
 #include "api/service/document_routes.hpp"
 #include "api/statistics/statistics_answers.hpp"
-#include "api/statistics/uncertainty_resource.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/json/body_forms.hpp"
-#include "record/measurement_batch.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 
 namespace fitgauge::api {
@@ -117,8 +113,7 @@ void members(auto& v, const Calibration& calibration) {
 
 namespace {
 
-void record_calibration(const Services& services, const http::Request& request,
-                        http::Responder responder) {
+void record_calibration(const Services& services, const Request& request, Responder responder) {
   const auto body = parse_json(request.body());
   if (!body) return responder.fail(body.error());
   auto order = read_whole<CalibrationOrder>(*body);
@@ -145,8 +140,7 @@ void record_calibration(const Services& services, const http::Request& request,
       });
 }
 
-void list_calibrations(const Services& services, const http::Request& request,
-                       http::Responder responder) {
+void list_calibrations(const Services& services, const Request& request, Responder responder) {
   services.documents.list_each(
       {app::DocumentKind::GaugeInUse, app::DocumentKind::Calibration}, false,
       [gauge = std::string(*request.text("name")), shared = share(std::move(responder))](
@@ -304,7 +298,7 @@ void add_documents_routes(Routes& add) {
   add_document_routes(add, kUncertainties);
   add_document_routes(add, kGauges);
   add_document_routes(add, kStudies);
-  const http::Parameter name = path_parameter("name", "Name of the gauge in use");
+  const Parameter name = path_parameter("name", "Name of the gauge in use");
   add("POST /v1/gauges-in-use/{name}/calibrations recordCalibration admin", record_calibration,
       {.summary = "Record a calibration of a gauge in use, or that it is blocked",
        .description = "A condition is in force from its beginning to the beginning of the next "

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "api/wire/formulas.hpp"
-#include "base/json/body_forms.hpp"
 #include "metrology/statistics/measuring_process.hpp"
 
 namespace fitgauge::api {

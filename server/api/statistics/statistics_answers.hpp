@@ -3,12 +3,9 @@
 #include "api/statistics/computation.hpp"
 #include "api/statistics/value_selection.hpp"
 #include "api/wire/formulas.hpp"
-#include "base/json/json_value.hpp"
 #include "base/json/schema.hpp"
 #include "base/result.hpp"
-#include "metrology/statistics/capability.hpp"
 #include "metrology/statistics/process_model.hpp"
-#include "metrology/statistics/summary.hpp"
 
 namespace fitgauge::api {
 
@@ -16,7 +13,11 @@ namespace fitgauge::api {
 // undefined figure is null.
 
 /// Members of a chart's order that only some kinds use, of values that are sent or stored.
-std::span<const Applicable> chart_members();
+inline constexpr std::array<Applicable, 3> kChartMembers = {{
+    {"lambda", "ewma"},
+    {"reference_value", "cusum"},
+    {"decision_interval", "cusum"},
+}};
 
 void members(auto& v, const metrology::Variation& variation) {
   const bool varies = variation.degrees_of_freedom > 0;
@@ -222,6 +223,8 @@ void members(auto& v, const CapabilityAnswer& answer) {
 /// The answer to a gauge study's body, by its method, and to one on a master.
 Result<std::string> gauge_study(const JsonValue& body);
 Result<std::string> master_study(const JsonValue& body);
+/// The answer to a budget. @errors RequestInvalid with every bad field.
+Result<std::string> compute_uncertainty(const JsonValue& body);
 
 void add_gauge_study_schemas(Schemas& schemas);
 

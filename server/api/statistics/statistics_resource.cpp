@@ -1,6 +1,3 @@
-#include "api/resources.hpp"
-
-#include "api/statistics/computation.hpp"
 #include "api/statistics/measuring_process.hpp"
 #include "api/statistics/statistics_answers.hpp"
 #include "metrology/statistics/fit_analysis.hpp"
@@ -124,7 +121,7 @@ void members(auto& v, ChartOrder& order) {
     // Limits are known from `centre` and `standard_deviation`; otherwise one of them is estimated.
     static constexpr std::array<Applicable, 1> kOfLimits = {{{"phase1", "estimated"}}};
     const bool is_known = plan.centre && plan.standard_deviation;
-    fields.refuse_not_applicable(chart_members(), "kind", word(plan.kind));
+    fields.refuse_not_applicable(kChartMembers, "kind", word(plan.kind));
     fields.refuse_not_applicable(kOfLimits, "limits", is_known ? "known" : "estimated");
   });
 }

@@ -3,8 +3,6 @@
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_listing.hpp"
 #include "api/statistics/statistics_answers.hpp"
-#include "api/statistics/value_selection.hpp"
-#include "api/wire/formulas.hpp"
 #include "service/jobs.hpp"
 
 namespace fitgauge::api {
@@ -19,14 +17,13 @@ constexpr double kMillion = 1e6;
 using Figure = std::function<Result<std::string>(ValueSelection&&, const std::string& as_of)>;
 
 /// Reads the values of the filters and computes from them; both may be slow.
-void answer_with(const Services& services, const http::Request& request, http::Responder responder,
+void answer_with(const Services& services, const Request& request, Responder responder,
                  Figure figure) {
   auto query = measurement_query(services, request);
   if (!query) return responder.fail(query.error());
   if (const auto last = request.integer("last")) query->last = static_cast<std::size_t>(*last);
   services.jobs.figures.run(
-      [&services, query = *std::move(query),
-       figure = std::move(figure)]() -> Result<http::Response> {
+      [&services, query = *std::move(query), figure = std::move(figure)]() -> Result<Response> {
         ValueSelection selection;
         const auto read = TRY(selection.read(services.measurements, query));
         return json_response(figure(std::move(selection), read));
@@ -46,8 +43,7 @@ NamePoint name_in(const SelectedValues& selected) {
   };
 }
 
-void find_capability(const Services& services, const http::Request& request,
-                     http::Responder responder) {
+void find_capability(const Services& services, const Request& request, Responder responder) {
   const auto target = request.length("target_mm");
   constexpr std::int64_t kUsual = 950'000;
   const long double confidence =
@@ -83,7 +79,7 @@ Result<metrology::ZoneRules> parse_rules(std::string_view text) {
   return rules;
 }
 
-double scaled(const http::Request& request, std::string_view name, double fallback) {
+double scaled(const Request& request, std::string_view name, double fallback) {
   const auto given = request.integer(name);
   return given ? static_cast<double>(*given) / kMillion : fallback;
 }
@@ -95,7 +91,7 @@ struct StoredChartPlan {
   bool ignores_subgroups = false;
 };
 
-Result<StoredChartPlan> chart_plan(const http::Request& request) {
+Result<StoredChartPlan> chart_plan(const Request& request) {
   StoredChartPlan stored;
   metrology::ChartPlan& plan = stored.plan;
   if (const auto kind = request.text("kind")) {
@@ -113,7 +109,7 @@ Result<StoredChartPlan> chart_plan(const http::Request& request) {
   if (from && !to) return invalid("phase1_to", "phase1_from needs phase1_to, which is exclusive");
   std::optional<Error> unused;
   refuse_not_applicable(
-      chart_members(), "kind", word(plan.kind),
+      kChartMembers, "kind", word(plan.kind),
       [&](const Applicable& row) { return request.has(row.member); },
       [&](std::string_view member, std::string message) {
         unused = invalid(member, std::move(message));
@@ -123,7 +119,7 @@ Result<StoredChartPlan> chart_plan(const http::Request& request) {
   return stored;
 }
 
-void find_chart(const Services& services, const http::Request& request, http::Responder responder) {
+void find_chart(const Services& services, const Request& request, Responder responder) {
   auto stored = chart_plan(request);
   if (!stored) return responder.fail(stored.error());
   answer_with(services, request, std::move(responder),
@@ -145,59 +141,85 @@ void find_chart(const Services& services, const http::Request& request, http::Re
               });
 }
 
-std::vector<http::Parameter> with_stored_filters(std::vector<http::Parameter> own) {
+std::vector<Parameter> with_stored_filters(std::vector<Parameter> own) {
   auto parameters = measurement_filter_parameters();
   own.push_back(subgroups_parameter());
   constexpr std::int64_t kMostOfLast = 1'000'000;
-  own.push_back({.name = "last",
-                 .type = http::Integer{.min = 1, .max = kMostOfLast},
-                 .description = "Only this number of the newest matches"});
+  own.push_back(query("last", http::Integer{.min = 1, .max = kMostOfLast},
+                      "Only this number of the newest matches"));
   parameters.insert(parameters.end(), own.begin(), own.end());
   return parameters;
 }
 
 /// A number up to `most`, of `least` millionths at least.
-http::Parameter number(std::string name, std::int64_t least, std::int64_t most,
-                       std::string description) {
-  return {.name = std::move(name),
-          .type = http::Decimal{.scale = kScale, .min = least, .max = most * 1'000'000},
-          .description = std::move(description)};
+Parameter number(std::string name, std::int64_t least, std::int64_t most, std::string description) {
+  return query(std::move(name),
+               http::Decimal{.scale = kScale, .min = least, .max = most * 1'000'000},
+               std::move(description));
 }
 
-std::vector<http::Parameter> chart_parameters() {
+std::vector<Parameter> chart_parameters() {
   constexpr std::int64_t kMost = 100'000'000;
   return with_stored_filters({
-      {.name = "kind",
-       .type = http::Words{{"i_mr", "xbar_r", "xbar_s", "ewma", "cusum"}},
-       .description = "Kind of chart (default: xbar_r with subgroups, else i_mr)"},
-      {.name = "rules", .description = "Rules of Western Electric 1956: 1,2,3,4 (default: none)"},
+      query("kind", http::Words{{"i_mr", "xbar_r", "xbar_s", "ewma", "cusum"}},
+            "Kind of chart (default: xbar_r with subgroups, else i_mr)"),
+      query("rules", "Rules of Western Electric 1956: 1,2,3,4 (default: none)"),
       number("lambda", 1'000, 1, "Weight of ewma (default: 0.2)"),
       number("reference_value", 1, 10,
              "Reference value k of cusum, in standard deviations (default: 0.5)"),
       number("decision_interval", 1, 20,
              "Decision interval h of cusum, in standard deviations (default: 5)"),
-      {.name = "phase1_from",
-       .type = http::Integer{.min = 0, .max = kMost},
-       .description = "First point the limits are taken from (default: 0)"},
-      {.name = "phase1_to",
-       .type = http::Integer{.min = 0, .max = kMost},
-       .description = "End of these points, exclusive (default: all)"},
+      query("phase1_from", http::Integer{.min = 0, .max = kMost},
+            "First point the limits are taken from (default: 0)"),
+      query("phase1_to", http::Integer{.min = 0, .max = kMost},
+            "End of these points, exclusive (default: all)"),
   });
 }
 
+constexpr std::size_t kPointRoom = 32;  ///< for any double, and the comma before it
+
+/// Writes a point of a measured value, a decimal of nanometres. Up to 15 digits that decimal is the
+/// shortest text that reads back as the same double, and is found faster. @returns the end of its
+/// text
+char* write_point(char* to, double point) {
+  constexpr double kNanometresOfOne = 1e6;
+  constexpr double kMost = 1e15;
+  constexpr int kDecimalPlaces = 6;
+  const double nanometres = std::nearbyint(point * kNanometresOfOne);
+  if (std::abs(nanometres) < kMost && nanometres / kNanometresOfOne == point) {
+    return write_decimal(to, static_cast<std::int64_t>(nanometres), kDecimalPlaces);
+  }
+  if (!std::isfinite(point)) return std::copy_n("null", 4, to);
+  return std::to_chars(to, to + kPointRoom, point).ptr;
+}
+
 }  // namespace
+
+/// Some hundred points at a time.
+void Points::write(JsonWriter& json, const std::vector<double>& points) const {
+  json.begin_array();
+  std::array<char, 8192> piece{};
+  char* at = piece.data();
+  for (const double point : points) {
+    if (at != piece.data()) *at++ = ',';
+    at = write_point(at, point);
+    if (piece.data() + piece.size() - at >= static_cast<std::ptrdiff_t>(kPointRoom)) continue;
+    json.raw({piece.data(), at});
+    at = piece.data();
+  }
+  if (at != piece.data()) json.raw({piece.data(), at});
+  json.end_array();
+}
 
 void add_stored_statistics_routes(Routes& add) {
   add("GET /v1/measurements/capability assessStoredCapability viewer", find_capability,
       {.summary = "Capability and performance of stored values",
        .description = "Against the limits in the records, which must be the same in all.",
        .parameters = with_stored_filters(
-           {{.name = "target_mm",
-             .type = http::LengthIn{},
-             .description = "Target of cpm (default: the middle of the limits)"},
-            {.name = "confidence",
-             .type = http::Decimal{.scale = kScale, .min = 1, .max = 999'999},
-             .description = "Confidence of the intervals (default: 0.95)"}}),
+           {query("target_mm", http::LengthIn{},
+                  "Target of cpm (default: the middle of the limits)"),
+            query("confidence", http::Decimal{.scale = kScale, .min = 1, .max = 999'999},
+                  "Confidence of the intervals (default: 0.95)")}),
        .outcomes = {{.meaning = "Computed figures", .schema = "StoredCapability"}},
        .refusals = {422}});
   add("GET /v1/measurements/chart makeStoredControlChart viewer", find_chart,

@@ -1,6 +1,5 @@
-#include "api/statistics/uncertainty_resource.hpp"
+#include "api/statistics/statistics_answers.hpp"
 
-#include "api/resources.hpp"
 #include "api/statistics/computation.hpp"
 #include "api/wire/formulas.hpp"
 #include "metrology/statistics/model.hpp"

@@ -63,11 +63,10 @@ std::string ValueSelection::text_of(const Limits& limits) {
 
 Result<std::string> ValueSelection::read(app::MeasurementService& measurements,
                                          const app::MeasurementQuery& query) {
-  auto values =
-      measurements.read_values(query, [this](const app::MeasuredRun& run) { return add(run); });
-  if (!values) return values.error();
-  move(values->moves);
-  return std::move(values->as_of);
+  auto values = TRY(
+      measurements.read_values(query, [this](const app::MeasuredRun& run) { return add(run); }));
+  move(values.moves);
+  return std::move(values.as_of);
 }
 
 Result<void> ValueSelection::add(const app::MeasuredRun& run) {
@@ -220,16 +219,14 @@ Result<SelectedValues> ValueSelection::selected(bool ignores_subgroups) && {
                                                 : std::move(*this).one_by_one();
 }
 
-http::Parameter subgroups_parameter() {
+Parameter subgroups_parameter() {
   return {.name = "subgroups",
           .type = http::Words{{"use", "ignore"}},
           .description =
               "use: by `subgroup` if the values name one; ignore: one by one (default: use)"};
 }
 
-bool ignores_subgroups(const http::Request& request) {
-  return request.text("subgroups") == "ignore";
-}
+bool ignores_subgroups(const Request& request) { return request.text("subgroups") == "ignore"; }
 
 SelectionAnswer selection_of(const SelectedValues& selected, std::string as_of) {
   return {.count = selected.count,

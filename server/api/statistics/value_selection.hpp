@@ -5,7 +5,6 @@
 #include "base/json/body_forms.hpp"
 #include "http/route.hpp"
 #include "metrology/statistics/capability.hpp"
-#include "metrology/statistics/control_chart.hpp"
 #include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
@@ -105,8 +104,8 @@ class ValueSelection {
 };
 
 /// `subgroups=ignore`
-http::Parameter subgroups_parameter();
-bool ignores_subgroups(const http::Request& request);
+Parameter subgroups_parameter();
+bool ignores_subgroups(const Request& request);
 
 /// The measurements of a figure, in a response.
 struct SelectionAnswer {

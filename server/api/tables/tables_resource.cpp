@@ -2,16 +2,11 @@
 #include "api/limits/limits_codec.hpp"
 #include "api/resources.hpp"
 #include "api/wire/request_facts.hpp"
-#include "base/json/json_value.hpp"
-#include "base/json/json_writer.hpp"
 #include "base/text.hpp"
 #include "http/field_list.hpp"
 #include "service/tables/custom_column.hpp"
-#include "tables/iso286/limit_deviations.hpp"
 #include "tables/iso286/tolerance_class.hpp"
-#include "tables/iso286/tolerance_tables.hpp"
 #include "tables/tabfile/iso286_projection.hpp"
-#include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -115,44 +110,43 @@ std::string form_etag(const ToleranceTables& tables, std::string_view form) {
   return fmt::format("\"{}.{}.{}\"", tables.revision().id, form, kVersion);
 }
 
-Result<http::Response> table_response(const http::Request& request, Feature feature,
-                                      const ToleranceTables& tables) {
+Result<Response> table_response(const Request& request, Feature feature,
+                                const ToleranceTables& tables) {
   const auto classes = TRY(chosen_classes(request.text("classes").value_or(""), feature, tables));
   const bool csv = wants_csv(request);
-  http::Response response =
-      csv ? http::Response(200, "text/csv; charset=utf-8; header=present",
-                           table_csv(classes, tables))
-          : http::Response(200, "application/json", table_json(feature, classes, tables));
+  Response response =
+      csv ? Response(200, "text/csv; charset=utf-8; header=present", table_csv(classes, tables))
+          : Response(200, "application/json", table_json(feature, classes, tables));
   response.etag = form_etag(tables, csv ? "csv" : "json");
   response.with("Vary", "Accept");
   return response;
 }
 
-Result<http::Response> index_response(const http::Request&, const ToleranceTables& tables) {
+Result<Response> index_response(const Request&, const ToleranceTables& tables) {
   return tagged_json(table_index_json(tables), etag_of(tables));
 }
 
-Result<http::Response> tab_response(Feature feature, const ToleranceTables& tables) {
-  http::Response response(200, "text/plain; charset=utf-8",
-                          tabfile::write_tab(tabfile::project(tables, feature)));
+Result<Response> tab_response(Feature feature, const ToleranceTables& tables) {
+  Response response(200, "text/plain; charset=utf-8",
+                    tabfile::write_tab(tabfile::project(tables, feature)));
   response.etag = form_etag(tables, "tab");
   return response;
 }
 
 /// The answer to a change: the new revision and its tag, with which the next change can be guarded.
-void answer_change(const std::shared_ptr<http::Responder>& responder, int status,
+void answer_change(const std::shared_ptr<Responder>& responder, int status,
                    const app::TableCatalog::ColumnStored& stored) {
-  http::Response response(status);
+  Response response(status);
   if (status != 204) {
-    response = http::Response(status, "application/json", json_object([&](JsonWriter& json) {
-                                json.member("revision", stored.revision);
-                              }));
+    response =
+        Response(status, "application/json",
+                 json_object([&](JsonWriter& json) { json.member("revision", stored.revision); }));
   }
   responder->answer(std::move(response).with("ETag", '"' + stored.revision + '"'));
 }
 
 /// The column that the path names. @errors PathMalformed when no column can be called so.
-Result<std::string> column_name(const http::Request& request) {
+Result<std::string> column_name(const Request& request) {
   const std::string_view name = *request.text("name");
   if (iso286::is_class_name(name)) return std::string(name);
   return Error{
@@ -174,7 +168,7 @@ bool name_tables(std::string_view tags, std::string_view revision, bool exists, 
   });
 }
 
-app::TableCatalog::Condition condition_of(const http::Request& request) {
+app::TableCatalog::Condition condition_of(const Request& request) {
   return [asked = preconditions_of(request)](std::string_view revision, bool exists) {
     return (!asked.if_match || name_tables(*asked.if_match, revision, exists, false)) &&
            !(exists && asked.if_none_match &&
@@ -182,8 +176,8 @@ app::TableCatalog::Condition condition_of(const http::Request& request) {
   };
 }
 
-void put_column(const Services& services, Feature feature, const http::Request& request,
-                http::Responder responder) {
+void put_column(const Services& services, Feature feature, const Request& request,
+                Responder responder) {
   auto name = column_name(request);
   if (!name) return responder.fail(name.error());
   const auto parsed = parse_json(request.body());
@@ -204,8 +198,8 @@ void put_column(const Services& services, Feature feature, const http::Request& 
       });
 }
 
-void remove_column(const Services& services, Feature feature, const http::Request& request,
-                   http::Responder responder) {
+void remove_column(const Services& services, Feature feature, const Request& request,
+                   Responder responder) {
   auto name = column_name(request);
   if (!name) return responder.fail(name.error());
   const auto shared = share(std::move(responder));
@@ -218,9 +212,8 @@ void remove_column(const Services& services, Feature feature, const http::Reques
 }
 
 http::AsyncHandler with(const Services& services, Feature feature,
-                        void (*handler)(const Services&, Feature, const http::Request&,
-                                        http::Responder)) {
-  return [&services, feature, handler](const http::Request& request, http::Responder responder) {
+                        void (*handler)(const Services&, Feature, const Request&, Responder)) {
+  return [&services, feature, handler](const Request& request, Responder responder) {
     handler(services, feature, request, std::move(responder));
   };
 }
@@ -229,28 +222,25 @@ void add_feature_routes(Routes& add, Feature feature) {
   const std::string path = "/v1/tables/" + std::string(word(feature));
   const std::string table = feature == Feature::Hole ? "HoleTable" : "ShaftTable";
   add("GET " + path + " get" + table + " open",
-      ResponseCache::of_revision(
-          add.cache,
-          [feature](const http::Request& request, const ToleranceTables& tables) {
-            return table_response(request, feature, tables);
-          }),
+      ResponseCache::of_revision(add.cache,
+                                 [feature](const Request& request, const ToleranceTables& tables) {
+                                   return table_response(request, feature, tables);
+                                 }),
       {.summary = "Limit deviations of every class and size range",
-       .parameters = {{.name = "classes", .description = "H7,JS7: only these classes"},
-                      csv_or_json(),
+       .parameters = {query("classes", "H7,JS7: only these classes"), csv_or_json(),
                       revision_parameter()},
        .response_types = {"application/json", "text/csv"},
        .outcomes = {{.meaning = "The table", .schema = "Table"}},
        .refusals = {404}});
   add("GET " + path + ".tab get" + table + "Tab open",
       ResponseCache::cached(add.cache,
-                            [feature](const http::Request&, const ToleranceTables& tables) {
+                            [feature](const Request&, const ToleranceTables& tables) {
                               return tab_response(feature, tables);
                             }),
       {.summary = "The table as the control's freely definable table, as program 8255 reads it",
        .response_types = {"text/plain"},
        .outcomes = {{.meaning = "The file"}}});
-  const http::Parameter name =
-      path_parameter("name", "Letter, then letters, digits and _; at most 16");
+  const Parameter name = path_parameter("name", "Letter, then letters, digits and _; at most 16");
   add("PUT " + path + "/classes/{name} put" + table + "Column admin",
       with(add.services, feature, put_column),
       {.summary = "Store a custom tolerance class as a new revision",

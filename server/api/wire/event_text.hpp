@@ -1,8 +1,6 @@
 #pragma once
 
-#include "http/request.hpp"
-#include "http/response.hpp"
-#include "http/route.hpp"
+#include "api/resources.hpp"
 
 namespace fitgauge::api {
 
@@ -26,21 +24,20 @@ inline void append_event_id(std::string& out, std::string_view id) {
 }
 
 /// A response for events: never cached, never delayed by a proxy.
-inline http::Response event_response(http::Body events) {
-  return http::Response(200, std::string(kEventStreamType), std::move(events))
+inline Response event_response(http::Body events) {
+  return Response(200, std::string(kEventStreamType), std::move(events))
       .with("Cache-Control", "no-store")
       .with("X-Accel-Buffering", "no");
 }
-inline http::Response event_response(std::shared_ptr<http::BodyStream> source) {
+inline Response event_response(std::shared_ptr<http::BodyStream> source) {
   return event_response(http::StreamedBody{
       .source = std::move(source), .heartbeat = std::string(kEventHeartbeat), .is_endless = true});
 }
 
 /// Adds the parameters by which a reader names its last event when it reconnects.
-inline void add_last_event_id(std::vector<http::Parameter>& parameters) {
+inline void add_last_event_id(std::vector<Parameter>& parameters) {
   parameters.push_back(
-      {.name = "last_event_id",
-       .description = "The id of the last event, for clients that cannot set the header"});
+      query("last_event_id", "The id of the last event, for clients that cannot set the header"));
   parameters.push_back({.name = "Last-Event-ID",
                         .place = http::ParameterPlace::Header,
                         .description = "The id of the last event that was read"});
@@ -48,7 +45,7 @@ inline void add_last_event_id(std::vector<http::Parameter>& parameters) {
 
 /// Returns the id of the last event, if given. A browser sends the header when it connects again;
 /// it overrides the query of the first request.
-inline std::optional<std::string_view> last_event_id(const http::Request& request) {
+inline std::optional<std::string_view> last_event_id(const Request& request) {
   auto named = request.text("Last-Event-ID");
   if (!named) named = request.text("last_event_id");
   if (named && named->empty()) return std::nullopt;

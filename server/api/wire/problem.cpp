@@ -13,7 +13,7 @@ void write_detail(JsonWriter& json, const Error& detail) {
   json.end_object();
 }
 
-void add_headers(const Error& error, int status, http::Response& response) {
+void add_headers(const Error& error, int status, Response& response) {
   if (status == 401) response.with("WWW-Authenticate", "Bearer realm=\"fitgauge\"");
   if (status == 503 && error.code != ErrorCode::TablesInconsistent) {
     response.with("Retry-After", "1");
@@ -25,13 +25,12 @@ void add_headers(const Error& error, int status, http::Response& response) {
 int status_of(ErrorCode code) {
   static constexpr int kStatus[] = {
 #define FITGAUGE_ERROR(name, id, title, status) status,
-#include "base/error_codes.inc"
 #undef FITGAUGE_ERROR
   };
   return kStatus[static_cast<std::size_t>(code)];
 }
 
-http::Response problem(const Error& error, std::optional<int> given, const http::Request& request) {
+Response problem(const Error& error, std::optional<int> given, const Request& request) {
   const int status = given.value_or(status_of(error.code));
   std::string body = json_object([&](JsonWriter& json) {
     json.member("type", "urn:fitgauge:problem:" + std::string(id(error.code)));
@@ -45,7 +44,7 @@ http::Response problem(const Error& error, std::optional<int> given, const http:
     for (const Error& detail : error.details) write_detail(json, detail);
     json.end_array();
   });
-  http::Response response(status, "application/problem+json", std::move(body));
+  Response response(status, "application/problem+json", std::move(body));
   add_headers(error, status, response);
   return response;
 }

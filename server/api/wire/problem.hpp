@@ -1,8 +1,6 @@
 #pragma once
 
-#include "base/result.hpp"
-#include "http/request.hpp"
-#include "http/response.hpp"
+#include "api/services.hpp"
 
 namespace fitgauge::api {
 
@@ -12,6 +10,6 @@ int status_of(ErrorCode code);
 /// The problem document (RFC 9457) of an error: type, title, status, detail, instance, code and, if
 /// there are several, every bad field with its pointer.
 /// @param status of a refusal by the HTTP engine; absent: by the error's code.
-http::Response problem(const Error& error, std::optional<int> status, const http::Request& request);
+Response problem(const Error& error, std::optional<int> status, const Request& request);
 
 }  // namespace fitgauge::api

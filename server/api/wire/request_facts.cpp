@@ -1,7 +1,6 @@
 #include "api/wire/request_facts.hpp"
 
-#include "base/digest.hpp"
-#include "base/text.hpp"
+#include "api/resources.hpp"
 #include "http/field_list.hpp"
 
 namespace fitgauge::api {
@@ -14,7 +13,7 @@ using http::take_part;
 
 /// Calls `visit(NameValue)` for each preference, without its parameters (RFC 7240, 2).
 template <class Visit>
-void for_each_preference(const http::Request& request, const Visit& visit) {
+void for_each_preference(const Request& request, const Visit& visit) {
   const auto header = request.header_list("Prefer");
   if (!header) return;
   for (std::string_view item : list_items(*header)) visit(split_parameter(take_part(item, ';')));
@@ -22,7 +21,7 @@ void for_each_preference(const http::Request& request, const Visit& visit) {
 
 }  // namespace
 
-Preference preference_of(const http::Request& request) {
+Preference preference_of(const Request& request) {
   Preference found = Preference::None;
   for_each_preference(request, [&](const NameValue& preference) {
     // The first of several counts.
@@ -33,18 +32,16 @@ Preference preference_of(const http::Request& request) {
   return found;
 }
 
-bool wants_csv(const http::Request& request) {
+bool wants_csv(const Request& request) {
   if (const auto format = request.text("format")) return *format == "csv";
   return request.response_type() == "text/csv";
 }
 
-http::Parameter csv_or_json() {
-  return {.name = "format",
-          .type = http::Words{{"json", "csv"}},
-          .description = "Format; replaces Accept"};
+Parameter csv_or_json() {
+  return query("format", http::Words{{"json", "csv"}}, "Format; replaces Accept");
 }
 
-bool prefers_async(const http::Request& request) {
+bool prefers_async(const Request& request) {
   bool found = false;
   for_each_preference(request, [&](const NameValue& preference) {
     found |= ascii_iequals(preference.name, "respond-async");
@@ -52,7 +49,7 @@ bool prefers_async(const http::Request& request) {
   return found;
 }
 
-Result<std::optional<std::string>> idempotency_key(const http::Request& request) {
+Result<std::optional<std::string>> idempotency_key(const Request& request) {
   constexpr std::size_t kLongest = 255;
   const auto header = request.header("Idempotency-Key");
   if (!header) return std::optional<std::string>();
@@ -72,7 +69,7 @@ Result<std::optional<std::string>> idempotency_key(const http::Request& request)
   return std::optional(std::string(key));
 }
 
-Preconditions preconditions_of(const http::Request& request) {
+Preconditions preconditions_of(const Request& request) {
   return {.if_match = request.header_list("If-Match"),
           .if_none_match = request.header_list("If-None-Match")};
 }
@@ -85,7 +82,7 @@ bool Preconditions::hold(std::optional<std::string_view> etag) const {
 /// Bytes of a header section.
 constexpr std::size_t kLongestTags = std::size_t{32} << 10;
 
-std::string next_link(const http::Request& request, std::string_view cursor) {
+std::string next_link(const Request& request, std::string_view cursor) {
   std::string link(request.path());
   char separator = '?';
   std::string_view rest = request.query();
@@ -101,7 +98,7 @@ std::string next_link(const http::Request& request, std::string_view cursor) {
   return fmt::format("<{}{}after={}>; rel=\"next\"", link, separator, cursor);
 }
 
-std::vector<http::Parameter> with_preconditions(http::Parameter path) {
+std::vector<Parameter> with_preconditions(Parameter path) {
   return {std::move(path),
           {.name = "If-Match",
            .place = http::ParameterPlace::Header,
@@ -113,13 +110,13 @@ std::vector<http::Parameter> with_preconditions(http::Parameter path) {
            .description = "Tags of which none may be the current one, or * for none at all"}};
 }
 
-std::optional<std::string_view> caller_name(const http::Request& request) {
+std::optional<std::string_view> caller_name(const Request& request) {
   const auto* caller = request.caller<Caller>();
   if (caller == nullptr || caller->name.empty()) return std::nullopt;
   return std::string_view(caller->name);
 }
 
-std::optional<std::string> caller_text(const http::Request& request) {
+std::optional<std::string> caller_text(const Request& request) {
   const auto name = caller_name(request);
   return name ? std::optional<std::string>(*name) : std::nullopt;
 }
@@ -129,7 +126,7 @@ std::string etag_of_text(std::string_view text) {
   return '"' + to_hex(sha256(text)).substr(0, kTagDigits) + '"';
 }
 
-TextPrecondition text_precondition_of(const http::Request& request) {
+TextPrecondition text_precondition_of(const Request& request) {
   Preconditions conditions = preconditions_of(request);
   if (!conditions.any()) return {};
   return [conditions = std::move(conditions)](std::optional<std::string_view> text) {
@@ -137,7 +134,7 @@ TextPrecondition text_precondition_of(const http::Request& request) {
   };
 }
 
-http::Parameter idempotency_parameter() {
+Parameter idempotency_parameter() {
   return {.name = "Idempotency-Key",
           .place = http::ParameterPlace::Header,
           .type = http::Text{.schema = R"({"type":"string","pattern":)"
@@ -147,8 +144,7 @@ http::Parameter idempotency_parameter() {
               "returns the first response"};
 }
 
-SharedPosting begin_posting(const Services& services, const http::Request& request,
-                            http::Responder responder) {
+SharedPosting begin_posting(const Services& services, const Request& request, Responder responder) {
   auto posting = std::make_shared<Posting>(Posting{services, request, std::move(responder)});
   auto key = idempotency_key(request);
   if (!key) {
@@ -165,13 +161,13 @@ SharedPosting begin_posting(const Services& services, const http::Request& reque
   return posting;
 }
 
-http::Response response_of(app::Answer answer) {
-  http::Response response(answer.status, std::move(answer.content_type), std::move(answer.body));
+Response response_of(app::Answer answer) {
+  Response response(answer.status, std::move(answer.content_type), std::move(answer.body));
   if (!answer.location.empty()) response.with("Location", std::move(answer.location));
   return response;
 }
 
-http::Response replayed(app::Answer kept) {
+Response replayed(app::Answer kept) {
   return response_of(std::move(kept)).with("Idempotency-Replayed", "true");
 }
 

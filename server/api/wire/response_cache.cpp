@@ -13,26 +13,25 @@ constexpr std::size_t kOverhead = 256;
 
 }  // namespace
 
-void tables_of(app::TableCatalog& catalog, const http::Request& request,
+void tables_of(app::TableCatalog& catalog, const Request& request,
                app::TableCatalog::Callback<app::TableCatalog::Tables> done) {
   const auto revision = request.text("revision");
   if (!revision) return done(catalog.tables());
   catalog.at_revision(std::string(*revision), std::move(done));
 }
 
-bool asks_for_revision_alone(const http::Request& request) {
+bool asks_for_revision_alone(const Request& request) {
   const std::string_view query = request.query();
   return query.starts_with("revision=") && query.find('&') == std::string_view::npos;
 }
 
-http::Parameter revision_parameter() {
-  return {.name = "revision", .description = "Answers from an older revision of the tables"};
+Parameter revision_parameter() {
+  return query("revision", "Answers from an older revision of the tables");
 }
 
 http::AsyncHandler ResponseCache::of_revision(std::shared_ptr<ResponseCache> cache,
                                               TableHandler make) {
-  return [cache, make, current = cached(cache, make)](const http::Request& request,
-                                                      http::Responder responder) {
+  return [cache, make, current = cached(cache, make)](const Request& request, Responder responder) {
     const auto answer = answer_by(share(std::move(responder)));
     if (!request.has("revision")) return answer(current(request));
     tables_of(cache->tables_, request, [&request, make, answer](const auto& tables) {
@@ -43,11 +42,11 @@ http::AsyncHandler ResponseCache::of_revision(std::shared_ptr<ResponseCache> cac
 
 http::SyncHandler ResponseCache::cached(std::shared_ptr<ResponseCache> cache, TableHandler make) {
   return [cache = std::move(cache),
-          make = std::move(make)](const http::Request& request) -> Result<http::Response> {
+          make = std::move(make)](const Request& request) -> Result<Response> {
     if (auto found = cache->find(request)) return found;
     const auto state = cache->tables_.state();
     if (state->tables == nullptr) return cache->tables_.tables().error();
-    Result<http::Response> made = make(request, *state->tables);
+    Result<Response> made = make(request, *state->tables);
     if (!made || made->status != 200 || made->prepared) return made;
     Prepared prepared = http::prepare(*made);
     cache->keep(request, state, prepared);
@@ -55,7 +54,7 @@ http::SyncHandler ResponseCache::cached(std::shared_ptr<ResponseCache> cache, Ta
   };
 }
 
-ResponseCache::Prepared ResponseCache::find(const http::Request& request) {
+ResponseCache::Prepared ResponseCache::find(const Request& request) {
   const std::lock_guard lock(mutex_);
   if (!tables_.is_in_use(state_.get())) return nullptr;
   key_.clear();
@@ -64,7 +63,7 @@ ResponseCache::Prepared ResponseCache::find(const http::Request& request) {
   return found == answers_.end() ? nullptr : found->second;
 }
 
-void ResponseCache::keep(const http::Request& request, std::shared_ptr<const app::TableState> state,
+void ResponseCache::keep(const Request& request, std::shared_ptr<const app::TableState> state,
                          Prepared response) {
   const std::size_t size = http::size_in_memory(*response);
   if (size > kLongestAnswer) return;

@@ -9,13 +9,13 @@ namespace fitgauge::api {
 
 /// Returns the current tables, or the revision of the request.
 /// @errors RevisionUnknown, TablesInconsistent, StorageUnavailable.
-void tables_of(app::TableCatalog& catalog, const http::Request& request,
+void tables_of(app::TableCatalog& catalog, const Request& request,
                app::TableCatalog::Callback<app::TableCatalog::Tables> done);
 
 /// Returns whether `revision` is the only member of a query.
-bool asks_for_revision_alone(const http::Request& request);
+bool asks_for_revision_alone(const Request& request);
 
-http::Parameter revision_parameter();
+Parameter revision_parameter();
 
 /// Answers made from the tables, serialised once per route, arguments and form, however these are
 /// spelt; dropped when the tables change. At most 4 MiB, no answer over 64 KiB. Thread-safe, shared
@@ -25,7 +25,7 @@ class ResponseCache {
   explicit ResponseCache(app::TableCatalog& tables) : tables_(tables) {}
 
   using TableHandler =
-      std::function<Result<http::Response>(const http::Request&, const iso286::ToleranceTables&)>;
+      std::function<Result<Response>(const Request&, const iso286::ToleranceTables&)>;
 
   /// A handler that responds from the cache, or from `make` with the current tables. Only 200 is
   /// cached.
@@ -40,8 +40,8 @@ class ResponseCache {
  private:
   using Prepared = std::shared_ptr<const http::PreparedResponse>;
 
-  Prepared find(const http::Request& request);
-  void keep(const http::Request& request, std::shared_ptr<const app::TableState> state,
+  Prepared find(const Request& request);
+  void keep(const Request& request, std::shared_ptr<const app::TableState> state,
             Prepared response);
 
   app::TableCatalog& tables_;

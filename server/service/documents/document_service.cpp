@@ -1,6 +1,5 @@
 #include "service/documents/document_service.hpp"
 
-#include "base/json/json_value.hpp"
 #include "base/thread.hpp"
 #include "db/store/database.hpp"
 #include "service/log/changes.hpp"
@@ -50,7 +49,7 @@ Result<void> check_change(const DocumentService::Precondition& precondition, Doc
 }
 
 /// Documents of a centre are changed there. @errors Forbidden
-Result<void> check_owner(const store::Stores& stores, DocumentKind kind, const std::string& name) {
+Result<void> check_owner(const Stores& stores, DocumentKind kind, const std::string& name) {
   if (kind != DocumentKind::Setup && kind != DocumentKind::Plan &&
       kind != DocumentKind::Catalogue) {
     return {};
@@ -62,7 +61,7 @@ Result<void> check_owner(const store::Stores& stores, DocumentKind kind, const s
 
 /// Checks that neither `users` nor a current document refers to the removed one. @errors
 /// DocumentInUse with names
-Result<void> check_free(const store::Stores& stores, DocumentKind kind, const std::string& name,
+Result<void> check_free(const Stores& stores, DocumentKind kind, const std::string& name,
                         std::vector<std::string> users) {
   struct Use {
     DocumentKind by;
@@ -89,14 +88,13 @@ NamedDocument named_document(store::Document document) {
           .modified_at = {document.modified_at_ns}};
 }
 
-Result<NamedDocument> find(const store::Stores& stores, DocumentKind kind,
-                           const std::string& name) {
+Result<NamedDocument> find(const Stores& stores, DocumentKind kind, const std::string& name) {
   auto found = stores.documents.find(kind, name);
   if (!found) return unknown_document(kind, name);
   return named_document(*std::move(found));
 }
 
-Result<std::vector<NamedDocument>> all_of(const store::Stores& stores, DocumentKind kind) {
+Result<std::vector<NamedDocument>> all_of(const Stores& stores, DocumentKind kind) {
   std::vector<NamedDocument> documents;
   for (store::Document& document : stores.documents.list(kind)) {
     documents.push_back(named_document(std::move(document)));
@@ -105,7 +103,7 @@ Result<std::vector<NamedDocument>> all_of(const store::Stores& stores, DocumentK
 }
 
 /// The texts of gauges in use that were replaced, the oldest first.
-std::vector<NamedDocument> past_gauges(const store::Stores& stores) {
+std::vector<NamedDocument> past_gauges(const Stores& stores) {
   std::vector<NamedDocument> past;
   for (store::Change& change : stores.changes.of_kind("gauge")) {
     if (!change.before) continue;
@@ -116,13 +114,13 @@ std::vector<NamedDocument> past_gauges(const store::Stores& stores) {
 
 }  // namespace
 
-void add_users(std::vector<std::string>& users, const store::Stores& stores, DocumentKind kind,
+void add_users(std::vector<std::string>& users, const Stores& stores, DocumentKind kind,
                const std::function<bool(const JsonValue&)>& names_it) {
   for (const store::Document& document : stores.documents.list(kind)) {
     const auto body = parse_json(document.text);
     if (!body) continue;
     const auto has_one = [&](const JsonValue& list) {
-      return std::any_of(list.items.begin(), list.items.end(), names_it);
+      return std::ranges::any_of(list.items, names_it);
     };
     const JsonValue& workpiece = body->member("workpiece");
     if (!names_it(*body) && !has_one(body->member("characteristics")) &&
@@ -158,7 +156,7 @@ std::string_view gauge_of_calibration(std::string_view name) {
 void DocumentService::write(Change change, Done<bool> done) {
   database_.writer().submit(
       [change = std::move(change), at = clock_.now().nanoseconds,
-       has_centre = has_centre_](store::Stores& stores) -> Result<bool> {
+       has_centre = has_centre_](Stores& stores) -> Result<bool> {
         if (has_centre) TRY(check_owner(stores, change.kind, change.name));
         TRY(check_change(change.precondition, change.kind, change.name,
                          stores.documents.find(change.kind, change.name)));
@@ -180,9 +178,9 @@ void DocumentService::write(Change change, Done<bool> done) {
 }
 
 void DocumentService::read(DocumentKind kind, std::string name, Done<NamedDocument> done) {
-  database_.readers().submit([kind, name = std::move(name)](
-                                 const store::Stores& stores) { return find(stores, kind, name); },
-                             std::move(done));
+  database_.readers().submit(
+      [kind, name = std::move(name)](const Stores& stores) { return find(stores, kind, name); },
+      std::move(done));
 }
 
 void DocumentService::remove(DocumentKind kind, std::string name, Precondition precondition,
@@ -191,7 +189,7 @@ void DocumentService::remove(DocumentKind kind, std::string name, Precondition p
   database_.writer().submit(
       [kind, name = std::move(name), precondition = std::move(precondition),
        users = std::move(users), caller = std::move(caller), at = clock_.now().nanoseconds,
-       has_centre = has_centre_](store::Stores& stores) -> Result<bool> {
+       has_centre = has_centre_](Stores& stores) -> Result<bool> {
         const auto current = stores.documents.find(kind, name);
         if (!current) return unknown_document(kind, name);
         if (has_centre) TRY(check_owner(stores, kind, name));
@@ -203,7 +201,7 @@ void DocumentService::remove(DocumentKind kind, std::string name, Precondition p
 }
 
 void DocumentService::list(DocumentKind kind, Done<std::vector<NamedDocument>> done) {
-  database_.readers().submit([kind](const store::Stores& stores) { return all_of(stores, kind); },
+  database_.readers().submit([kind](const Stores& stores) { return all_of(stores, kind); },
                              std::move(done));
 }
 
@@ -211,7 +209,7 @@ void DocumentService::list_each(std::vector<DocumentKind> kinds, bool has_past,
                                 Done<std::vector<std::vector<NamedDocument>>> done) {
   database_.readers().submit(
       [kinds = std::move(kinds),
-       has_past](const store::Stores& stores) -> Result<std::vector<std::vector<NamedDocument>>> {
+       has_past](const Stores& stores) -> Result<std::vector<std::vector<NamedDocument>>> {
         std::vector<std::vector<NamedDocument>> lists;
         for (const DocumentKind kind : kinds) lists.push_back(all_of(stores, kind).value());
         if (has_past) lists.push_back(past_gauges(stores));
@@ -222,12 +220,11 @@ void DocumentService::list_each(std::vector<DocumentKind> kinds, bool has_past,
 
 Result<NamedDocument> DocumentService::wait_for(DocumentKind kind, const std::string& name) {
   return database_.readers().wait(
-      [kind, &name](const store::Stores& stores) { return find(stores, kind, name); });
+      [kind, &name](const Stores& stores) { return find(stores, kind, name); });
 }
 
 Result<std::vector<NamedDocument>> DocumentService::wait_for_list(DocumentKind kind) {
-  return database_.readers().wait(
-      [kind](const store::Stores& stores) { return all_of(stores, kind); });
+  return database_.readers().wait([kind](const Stores& stores) { return all_of(stores, kind); });
 }
 
 Result<bool> DocumentService::write_and_wait(Change change) {

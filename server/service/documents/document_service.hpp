@@ -2,13 +2,8 @@
 
 #include "base/clock.hpp"
 #include "base/json/json_value.hpp"
-#include "base/result.hpp"
 #include "db/store/documents_store.hpp"
-
-namespace fitgauge::store {
-class Database;
-struct Stores;
-}  // namespace fitgauge::store
+#include "service/storage.hpp"
 
 namespace fitgauge::app {
 
@@ -20,7 +15,7 @@ std::string_view gauge_of_calibration(std::string_view name);
 
 /// Adds the documents of a kind, as `plan '4711'`, of which the body, a characteristic, or a
 /// feature or fixture of the workpiece names something. Used inside a job.
-void add_users(std::vector<std::string>& users, const store::Stores& stores, DocumentKind kind,
+void add_users(std::vector<std::string>& users, const Stores& stores, DocumentKind kind,
                const std::function<bool(const JsonValue&)>& names_it);
 /// @errors DocumentInUse, if there are users.
 Result<void> check_unused(std::string_view what, const std::vector<std::string>& users);
@@ -57,7 +52,7 @@ class DocumentService {
   };
 
   /// @param has_centre whether setups, plans and catalogues of a centre can only be changed there.
-  DocumentService(store::Database& database, const Clock& clock, bool has_centre = false)
+  DocumentService(Database& database, const Clock& clock, bool has_centre = false)
       : database_(database), clock_(clock), has_centre_(has_centre) {}
 
   /// Returns whether the name is new. @errors UncertaintyUnknown: of `uncertainty`; GaugeUnknown;
@@ -84,7 +79,7 @@ class DocumentService {
                                std::optional<std::string> caller = {});
 
  private:
-  store::Database& database_;
+  Database& database_;
   const Clock& clock_;
   const bool has_centre_;
 };

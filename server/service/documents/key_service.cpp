@@ -27,7 +27,7 @@ bool may(Role role, Role needed) {
 
 std::optional<Role> role_from_word(std::string_view text) { return enum_of<Role>(text, kRoles, 1); }
 
-void log_key(store::Stores& stores, const std::string& name, std::int64_t now_ns, bool is_made) {
+void log_key(Stores& stores, const std::string& name, std::int64_t now_ns, bool is_made) {
   const auto key = stores.keys.newest(name);
   if (!key) return;
   store::Change change{.at_ns = now_ns, .kind = "key", .name = name};
@@ -38,18 +38,18 @@ void log_key(store::Stores& stores, const std::string& name, std::int64_t now_ns
   log_change(stores, std::move(change));
 }
 
-Result<void> revoke_key(store::Stores& stores, const std::string& name, std::int64_t now_ns) {
+Result<void> revoke_key(Stores& stores, const std::string& name, std::int64_t now_ns) {
   TRY(stores.keys.revoke(name, now_ns));
   log_key(stores, name, now_ns, false);
   return {};
 }
 
-KeyService::KeyService(store::Database& database, const Clock& clock, Tell tell)
+KeyService::KeyService(Database& database, const Clock& clock, Tell tell)
     : database_(database), clock_(clock), tell_(std::move(tell)) {}
 
 KeyService::~KeyService() = default;
 
-Result<std::unique_ptr<KeyService>> KeyService::open(store::Database& database, const Clock& clock,
+Result<std::unique_ptr<KeyService>> KeyService::open(Database& database, const Clock& clock,
                                                      Tell tell) {
   std::unique_ptr<KeyService> service(new KeyService(database, clock, std::move(tell)));
   TRY(service->reload());
@@ -62,11 +62,10 @@ Result<std::unique_ptr<KeyService>> KeyService::open(store::Database& database, 
 
 Result<void> KeyService::reload() {
   const std::lock_guard lock(loading_);
-  auto ring = database_.readers().wait(
-      [](const store::Stores& stores) -> Result<store::KeyRing> { return stores.keys.ring(); });
-  if (!ring) return ring.error();
+  auto ring = TRY(database_.readers().wait(
+      [](const Stores& stores) -> Result<store::KeyRing> { return stores.keys.ring(); }));
   const auto before = ring_.get();
-  const auto now = std::make_shared<const store::KeyRing>(*std::move(ring));
+  const auto now = std::make_shared<const store::KeyRing>(std::move(ring));
   ring_.set(now);
   if (before && tell_) tell_changes(*before, *now);
   return {};
@@ -109,42 +108,37 @@ Result<std::string> KeyService::create(const std::string& name, Role role, std::
                                        std::optional<Timestamp> expires) {
   if (token.empty()) token = store::new_token();
   const std::int64_t now = clock_.now().nanoseconds;
-  const auto created = database_.writer().wait([&](store::Stores& stores) -> Result<store::ApiKey> {
+  TRY(database_.writer().wait([&](Stores& stores) -> Result<store::ApiKey> {
     auto key = stores.keys.create(name, role, token, now,
                                   expires ? std::optional(expires->nanoseconds) : std::nullopt);
     if (key) log_key(stores, name, now, true);
     return key;
-  });
-  if (!created) return created.error();
+  }));
   TRY(reload());
   return token;
 }
 
 Result<std::string> KeyService::replace(const std::string& name, const std::string& token) {
   const std::int64_t now = clock_.now().nanoseconds;
-  const auto replaced =
-      database_.writer().wait([&](store::Stores& stores) -> Result<store::ApiKey> {
-        TRY(revoke_key(stores, name, now));
-        auto key = stores.keys.create(name, store::Role::Admin, token, now);
-        if (key) log_key(stores, name, now, true);
-        return key;
-      });
+  const auto replaced = database_.writer().wait([&](Stores& stores) -> Result<store::ApiKey> {
+    TRY(revoke_key(stores, name, now));
+    auto key = stores.keys.create(name, store::Role::Admin, token, now);
+    if (key) log_key(stores, name, now, true);
+    return key;
+  });
   if (!replaced) return replaced.error();
   TRY(reload());
   return token;
 }
 
 Result<void> KeyService::revoke(const std::string& name) {
-  const auto revoked = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
-    TRY(revoke_key(stores, name, clock_.now().nanoseconds));
-    return true;
-  });
-  if (!revoked) return revoked.error();
+  TRY(database_.writer().wait(
+      [&](Stores& stores) { return revoke_key(stores, name, clock_.now().nanoseconds); }));
   return reload();
 }
 
 Result<std::vector<KeyEntry>> KeyService::list() const {
-  return database_.readers().wait([](const store::Stores& stores) -> Result<std::vector<KeyEntry>> {
+  return database_.readers().wait([](const Stores& stores) -> Result<std::vector<KeyEntry>> {
     std::vector<KeyEntry> entries;
     for (const store::ApiKey& key : stores.keys.list()) {
       KeyEntry& entry = entries.emplace_back();

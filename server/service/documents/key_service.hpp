@@ -1,15 +1,8 @@
 #pragma once
 
-#include "base/clock.hpp"
-#include "base/result.hpp"
 #include "base/thread.hpp"
 #include "db/store/keys_store.hpp"
-
-namespace fitgauge::store {
-class Database;
-class KeyRing;
-struct Stores;
-}  // namespace fitgauge::store
+#include "service/storage.hpp"
 
 namespace fitgauge::app {
 
@@ -24,9 +17,9 @@ std::string_view word(Role role);
 std::optional<Role> role_from_word(std::string_view text);
 
 /// Revokes a key and logs the change. Used inside a write job. @errors NotFound.
-Result<void> revoke_key(store::Stores& stores, const std::string& name, std::int64_t now_ns);
+Result<void> revoke_key(Stores& stores, const std::string& name, std::int64_t now_ns);
 /// Logs that the newest key of that name was made, or revoked: its role and expiry, no secret.
-void log_key(store::Stores& stores, const std::string& name, std::int64_t now_ns, bool is_made);
+void log_key(Stores& stores, const std::string& name, std::int64_t now_ns, bool is_made);
 
 /// A caller that a token was given to.
 struct KnownCaller {
@@ -52,7 +45,7 @@ class KeyService {
   using Tell = std::function<void(std::string_view event, const std::string& detail)>;
 
   /// @errors StorageUnavailable.
-  static Result<std::unique_ptr<KeyService>> open(store::Database& database, const Clock& clock,
+  static Result<std::unique_ptr<KeyService>> open(Database& database, const Clock& clock,
                                                   Tell tell);
   ~KeyService();
 
@@ -77,11 +70,11 @@ class KeyService {
   Result<std::vector<KeyEntry>> list() const;
 
  private:
-  KeyService(store::Database& database, const Clock& clock, Tell tell);
+  KeyService(Database& database, const Clock& clock, Tell tell);
   Result<void> reload();
   void tell_changes(const store::KeyRing& before, const store::KeyRing& now) const;
 
-  store::Database& database_;
+  Database& database_;
   const Clock& clock_;
   const Tell tell_;
   std::mutex loading_;

@@ -31,7 +31,7 @@ bool take(std::string_view& text, std::string_view prefix) {
 /// Walks one page of events in one state of the database.
 class EventReader {
  public:
-  EventReader(const store::Stores& stores, EventService::Write write, std::string_view history)
+  EventReader(const Stores& stores, EventService::Write write, std::string_view history)
       : stores_(stores), write_(write), history_(history) {}
 
   EventPosition newest() const {
@@ -70,9 +70,9 @@ class EventReader {
     EventPosition& position = page_.position;
     const auto end = stores_.measurements.last_id();
     const auto after = position.measurement - (position.reject_is_due ? 1 : 0);
-    const auto next = stores_.measurements.list(
-        filter, after, kRowsAPage,
-        [&](const store::MeasurementRow& row) { tell(from_store(row, names)); });
+    const auto next =
+        stores_.measurements.list(filter, after, kRowsAPage,
+                                  [&](const MeasurementRow& row) { tell(from_store(row, names)); });
     page_.more = next.has_value();
     // Skipped rows of another source need not be read again.
     position.measurement = next.value_or(end);
@@ -101,7 +101,7 @@ class EventReader {
 
   void put(const Event& event) { write_(page_.text, event); }
 
-  const store::Stores& stores_;
+  const Stores& stores_;
   const EventService::Write write_;
   const std::string_view history_;
   EventService::Page page_;
@@ -184,7 +184,7 @@ struct EventService::PageWork {
     *readers = std::move(service.waiting_.extract(place).mapped());
   }
 
-  Result<Page> operator()(const store::Stores& stores) const {
+  Result<Page> operator()(const Stores& stores) const {
     EventReader reader(stores, write, service.origins_.own());
     if (!place.after) return Page{.position = reader.newest()};
     if (!reader.can_go_on(*place.after, service.retention_)) {
@@ -214,7 +214,7 @@ void EventService::read(const Place& place, Write write, PageDone done) {
 void EventService::read_stored(std::int64_t after, std::size_t limit,
                                std::function<void(Result<StoredPage>)> done) {
   database_.readers().submit(
-      [this, after, limit](const store::Stores& stores) -> Result<StoredPage> {
+      [this, after, limit](const Stores& stores) -> Result<StoredPage> {
         const store::EventsStore::Kept kept = stores.events.kept();
         StoredPage page{.newest = kept.newest, .gap = after + 1 < kept.oldest};
         for (store::Event& event : stores.events.after(after, limit)) {

@@ -3,6 +3,7 @@
 #include "base/thread.hpp"
 #include "record/measurement.hpp"
 #include "record/origins.hpp"
+#include "service/storage.hpp"
 
 namespace fitgauge::app {
 
@@ -43,16 +44,6 @@ class CommitSignal {
   Thread thread_;
 };
 
-}  // namespace fitgauge::app
-
-namespace fitgauge::store {
-class Database;
-}
-
-namespace fitgauge::app {
-
-class TableCatalog;
-
 /// Position of a reader of events. The measurements are the log of recorded events; only events
 /// without another table are stored as such.
 struct EventPosition {
@@ -85,7 +76,7 @@ class EventService {
  public:
   /// @param retention number of measurements and of stored events that a reader may be behind.
   /// @param origins must outlive the service.
-  EventService(store::Database& database, const TableCatalog& tables, const Origins& origins,
+  EventService(Database& database, const TableCatalog& tables, const Origins& origins,
                CommitSignal& signal, std::int64_t retention)
       : database_(database),
         tables_(tables),
@@ -151,7 +142,7 @@ class EventService {
   using Readers = std::vector<PageDone>;
   struct PageWork;
 
-  store::Database& database_;
+  Database& database_;
   const TableCatalog& tables_;
   const Origins& origins_;
   CommitSignal& signal_;

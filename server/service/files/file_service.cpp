@@ -17,7 +17,7 @@ Error changed(const interpreter::ControlPath& path) {
           path.text() + " has changed since you read it: read it again"};
 }
 
-bool holds(const FileService::Precondition& precondition, const store::Stores& stores,
+bool holds(const FileService::Precondition& precondition, const Stores& stores,
            const interpreter::ControlPath& path) {
   if (!precondition) return true;
   const auto file = stores.files.find(path.text());
@@ -42,7 +42,7 @@ Result<interpreter::ControlPath> parse_file_path(std::string_view text) {
 std::optional<interpreter::ControlFile> StoredDisk::find(
     const interpreter::ControlPath& path) const {
   auto found = database_.readers().wait(
-      [&path](const store::Stores& stores) -> Result<std::optional<store::FileContent>> {
+      [&path](const Stores& stores) -> Result<std::optional<store::FileContent>> {
         return stores.files.find(path.text());
       });
   if (!found) throw store::StorageFailure(found.error());
@@ -57,7 +57,7 @@ std::optional<interpreter::ControlFile> StoredDisk::find(
 
 std::optional<std::string> StoredDisk::revision(const interpreter::ControlPath& path) const {
   const auto found = database_.readers().wait(
-      [&path](const store::Stores& stores) -> Result<std::optional<store::FileEntry>> {
+      [&path](const Stores& stores) -> Result<std::optional<store::FileEntry>> {
         return stores.files.stat(path.text());
       });
   if (!found) throw store::StorageFailure(found.error());
@@ -66,7 +66,7 @@ std::optional<std::string> StoredDisk::revision(const interpreter::ControlPath& 
 }
 
 bool StoredDisk::has_directory(std::string_view directory) const {
-  const auto found = database_.readers().wait([directory](const store::Stores& stores) {
+  const auto found = database_.readers().wait([directory](const Stores& stores) {
     return Result<bool>(!stores.files.list(directory).empty());
   });
   if (!found) throw store::StorageFailure(found.error());
@@ -102,8 +102,7 @@ void FileService::write(interpreter::ControlPath path, std::string_view bytes,
                         Done<bool> done) {
   database_.writer().submit(
       [path = std::move(path), bytes, caller = std::move(caller),
-       precondition = std::move(precondition),
-       now = clock_.now()](store::Stores& stores) -> Result<bool> {
+       precondition = std::move(precondition), now = clock_.now()](Stores& stores) -> Result<bool> {
         if (!holds(precondition, stores, path)) return changed(path);
         return stores.files
             .put({.path = path.text(),
@@ -117,7 +116,7 @@ void FileService::write(interpreter::ControlPath path, std::string_view bytes,
 
 void FileService::read(interpreter::ControlPath path, Done<DiskFile> done) {
   database_.readers().submit(
-      [path = std::move(path)](const store::Stores& stores) -> Result<DiskFile> {
+      [path = std::move(path)](const Stores& stores) -> Result<DiskFile> {
         auto found = stores.files.find(path.text());
         if (!found) return unknown(path);
         DiskFile file = disk_file(std::move(found->entry));
@@ -132,8 +131,7 @@ void FileService::remove(interpreter::ControlPath path, std::optional<std::strin
                          Done<bool> done) {
   database_.writer().submit(
       [path = std::move(path), caller = std::move(caller), precondition = std::move(precondition),
-       users = std::move(users),
-       now = clock_.now()](store::Stores& stores) mutable -> Result<bool> {
+       users = std::move(users), now = clock_.now()](Stores& stores) mutable -> Result<bool> {
         if (!stores.files.stat(path.text())) return unknown(path);
         for (const auto& [kind, member] :
              {std::pair{DocumentKind::Setup, "file"}, std::pair{DocumentKind::Plan, "picture"}}) {
@@ -152,7 +150,7 @@ void FileService::remove(interpreter::ControlPath path, std::optional<std::strin
 
 void FileService::list(std::string prefix, Done<std::vector<DiskFile>> done) {
   database_.readers().submit(
-      [prefix = std::move(prefix)](const store::Stores& stores) -> Result<std::vector<DiskFile>> {
+      [prefix = std::move(prefix)](const Stores& stores) -> Result<std::vector<DiskFile>> {
         std::vector<DiskFile> files;
         for (store::FileEntry& entry : stores.files.list(prefix)) {
           files.push_back(disk_file(std::move(entry)));

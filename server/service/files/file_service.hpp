@@ -1,13 +1,8 @@
 #pragma once
 
 #include "base/clock.hpp"
-#include "base/result.hpp"
 #include "nc/program/control_disk.hpp"
-
-namespace fitgauge::store {
-class Database;
-struct Stores;
-}  // namespace fitgauge::store
+#include "service/storage.hpp"
 
 namespace fitgauge::app {
 
@@ -23,14 +18,14 @@ Result<interpreter::ControlPath> parse_file_path(std::string_view text);
 class StoredDisk final : public interpreter::ControlDisk {
  public:
   /// @param database outlives the disk.
-  explicit StoredDisk(store::Database& database) : database_(database) {}
+  explicit StoredDisk(Database& database) : database_(database) {}
 
   std::optional<interpreter::ControlFile> find(const interpreter::ControlPath& path) const override;
   std::optional<std::string> revision(const interpreter::ControlPath& path) const override;
   bool has_directory(std::string_view directory) const override;
 
  private:
-  store::Database& database_;
+  Database& database_;
 };
 
 /// A disk on which one file has the text that is being written, stored or not. Thread-safe as the
@@ -65,7 +60,7 @@ class FileService {
   template <class T>
   using Done = std::function<void(Result<T>)>;
 
-  FileService(store::Database& database, const Clock& clock) : database_(database), clock_(clock) {}
+  FileService(Database& database, const Clock& clock) : database_(database), clock_(clock) {}
 
   /// Decides from the current bytes, if there is a file, whether the change is allowed; called in
   /// the transaction of the change. An empty function allows every change.
@@ -89,7 +84,7 @@ class FileService {
   void list(std::string prefix, Done<std::vector<DiskFile>> done);
 
  private:
-  store::Database& database_;
+  Database& database_;
   const Clock& clock_;
 };
 

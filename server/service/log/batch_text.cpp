@@ -1,6 +1,5 @@
 #include "service/log/batch_text.hpp"
 
-#include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
 #include "record/note.hpp"
 #include "record/record.hpp"

@@ -1,8 +1,6 @@
 #pragma once
 
 #include "base/json/text_arena.hpp"
-#include "base/result.hpp"
-#include "service/log/log_intake.hpp"
 #include "service/log/log_outbox.hpp"
 
 namespace fitgauge::api {

@@ -1,6 +1,5 @@
 #include "service/log/changes.hpp"
 
-#include "base/clock.hpp"
 #include "base/json/json_writer.hpp"
 #include "proof/frontier.hpp"
 #include "service/documents/document_service.hpp"
@@ -24,7 +23,7 @@ std::string shown_text(store::DocumentKind kind, const std::string& text) {
   return api::json_text(without_secrets(*settings));
 }
 
-void log_document(store::Stores& stores, store::DocumentKind kind, const std::string& name,
+void log_document(Stores& stores, store::DocumentKind kind, const std::string& name,
                   std::int64_t at_ns, const std::optional<std::string>& caller,
                   const std::optional<std::string>& after) {
   if (word(kind).empty()) return;
@@ -86,7 +85,7 @@ std::string change_entry(const store::Change& change) {
   return entry.size() <= kLongestEntry ? entry : text_of(change, change.id, true);
 }
 
-void log_change(store::Stores& stores, store::Change change) {
+void log_change(Stores& stores, store::Change change) {
   if (change.before == change.after) return;
   change.id = stores.changes.size() + 1;
   const std::string_view gone = change.kind == "key" ? "revoked" : "deleted";
@@ -94,13 +93,13 @@ void log_change(store::Stores& stores, store::Change change) {
   stores.changes.append(change, tlog::leaf_hash(change_entry(change)));
 }
 
-bool put_document(store::Stores& stores, const store::Document& document) {
+bool put_document(Stores& stores, const store::Document& document) {
   log_document(stores, document.kind, document.name, document.modified_at_ns, document.caller,
                document.text);
   return stores.documents.put(document);
 }
 
-bool remove_document(store::Stores& stores, store::DocumentKind kind, const std::string& name,
+bool remove_document(Stores& stores, store::DocumentKind kind, const std::string& name,
                      std::int64_t at_ns, const std::optional<std::string>& caller) {
   log_document(stores, kind, name, at_ns, caller, std::nullopt);
   return stores.documents.remove(kind, name);

@@ -2,6 +2,7 @@
 
 #include "base/json/json_value.hpp"
 #include "db/store/stores.hpp"
+#include "service/storage.hpp"
 
 // Changes of configuration: tables, plans, budgets, gauges, calibrations, studies, setups,
 // catalogues, connections and keys. Each is logged in the job that makes it.
@@ -10,12 +11,12 @@ namespace fitgauge::app {
 
 /// Logs a change under the next id, as created, replaced, deleted or (a key) revoked.
 /// @param change without id and action; its texts are JSON. Nothing is logged if they are equal.
-void log_change(store::Stores& stores, store::Change change);
+void log_change(Stores& stores, store::Change change);
 
 /// Stores or removes a document and logs it, a connection without its secrets.
 /// @returns whether it is new, or was there.
-bool put_document(store::Stores& stores, const store::Document& document);
-bool remove_document(store::Stores& stores, store::DocumentKind kind, const std::string& name,
+bool put_document(Stores& stores, const store::Document& document);
+bool remove_document(Stores& stores, store::DocumentKind kind, const std::string& name,
                      std::int64_t at_ns, const std::optional<std::string>& caller);
 
 /// Returns the settings of a connection that may be shown: the number of secrets, whether there is

@@ -1,6 +1,5 @@
 #include "service/log/log_check.hpp"
 
-#include "base/digest.hpp"
 #include "db/store/database.hpp"
 #include "service/log/changes.hpp"
 #include "service/log/log_reader.hpp"
@@ -38,7 +37,7 @@ void LogCheck::expect(const std::string& place, std::string_view note) {
   }
 }
 
-std::optional<std::string> LogCheck::add(const store::MeasurementRow& row) {
+std::optional<std::string> LogCheck::add(const MeasurementRow& row) {
   const Measurement measurement = from_store(row, names_);
   const tlog::Hash leaf = leaf_(measurement);
   if (facts_.is_partial) {
@@ -58,9 +57,9 @@ std::optional<std::string> LogCheck::add(const store::MeasurementRow& row) {
   return leaf == row.hash ? std::nullopt : std::optional(altered_finding());
 }
 
-bool LogCheck::add_changes(store::Database& database) {
+bool LogCheck::add_changes(Database& database) {
   std::int64_t after = 0;
-  const auto add_page = [&](const store::Stores& stores) -> Result<bool> {
+  const auto add_page = [&](const Stores& stores) -> Result<bool> {
     const auto page = stores.changes.list({}, after, kChangesAtATime);
     const auto count = static_cast<std::int64_t>(page.changes.size());
     const auto leaves = LogReader(stores, names_, LogReader::kChanges).leaves(after, count);

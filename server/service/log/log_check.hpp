@@ -1,7 +1,6 @@
 #pragma once
 
 #include "db/store/open_options.hpp"
-#include "proof/frontier.hpp"
 #include "service/log/leaf.hpp"
 #include "service/log/log_service.hpp"
 #include "service/measurements/mapping.hpp"
@@ -29,11 +28,11 @@ class LogCheck {
   void expect(const std::string& place, std::string_view note);
 
   /// The finding for the next measurement of this log, if any.
-  std::optional<std::string> add(const store::MeasurementRow& row);
+  std::optional<std::string> add(const MeasurementRow& row);
 
   /// Adds all changes instead of measurements: each must have its leaf.
   /// @returns whether it could read all of them, and there are some.
-  bool add_changes(store::Database& database);
+  bool add_changes(Database& database);
 
   /// The finding for the whole log, after the last measurement.
   std::vector<std::string> finish();

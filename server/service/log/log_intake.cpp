@@ -1,10 +1,8 @@
 #include "service/log/log_intake.hpp"
 
 #include "db/store/database.hpp"
-#include "service/log/leaf.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/log/log_reader.hpp"
-#include "service/measurements/mapping.hpp"
 #include "service/measurements/measurement_storage.hpp"
 #include "service/tables/table_catalog.hpp"
 
@@ -75,10 +73,9 @@ Result<LogIntake::Answer> LogIntake::take(const ForwardedBatch& batch) {
     return Answer{.outcome = judged.outcome, .head = known.head};
   TRY(check_rows(batch));
   TRY(prepare(batch, known));
-  const auto stored = database_.writer().wait(
-      [&](store::Stores& stores) { return store_rows(stores, batch, known, judged); });
-  if (!stored) return stored.error();
-  if (!*stored) {  // another batch of this log was faster
+  const auto stored = TRY(database_.writer().wait(
+      [&](Stores& stores) { return store_rows(stores, batch, known, judged); }));
+  if (!stored) {  // another batch of this log was faster
     const auto now = TRY(read(batch));
     return Answer{.outcome = Outcome::Elsewhere, .head = now.head};
   }
@@ -91,7 +88,7 @@ Result<LogIntake::Answer> LogIntake::take(const ForwardedBatch& batch) {
 }
 
 Result<LogIntake::Known> LogIntake::read(const ForwardedBatch& batch) const {
-  return database_.readers().wait([&](const store::Stores& stores) -> Result<Known> {
+  return database_.readers().wait([&](const Stores& stores) -> Result<Known> {
     Known known;
     const auto origin = stores.origins.find(batch.origin);
     const auto behind = parse_note_id(batch.notes_after, origins_);
@@ -124,7 +121,7 @@ Result<LogIntake::Known> LogIntake::read(const ForwardedBatch& batch) const {
 }
 
 /// A branch begins with the rows of its base that are here, even if it names more.
-Result<void> LogIntake::read_base(const store::Stores& stores, const ForwardedBatch& batch,
+Result<void> LogIntake::read_base(const Stores& stores, const ForwardedBatch& batch,
                                   Known& known) const {
   if (batch.base.origin.empty()) return {};
   const auto base = stores.origins.find(batch.base.origin);
@@ -165,7 +162,7 @@ Result<void> LogIntake::trust(const ForwardedBatch& batch, Known& known) const {
     known.new_keys.push_back(next);
   };
   const auto is_known = [&known](const tlog::VerifierKey& wanted) {
-    return std::find(known.keys.begin(), known.keys.end(), wanted) != known.keys.end();
+    return std::ranges::find(known.keys, wanted) != known.keys.end();
   };
   if (known.keys.empty()) add(key);
   // Notes may be in any order: the key of a signature can come from another note.
@@ -264,7 +261,7 @@ Result<void> LogIntake::prepare(const ForwardedBatch& batch, Known& known) {
   if (known.number != 0 && revisions.empty()) return {};
   const bool is_new = known.number == 0;
   std::vector<std::pair<std::int64_t, std::string_view>> numbers;
-  const auto stored = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+  TRY(database_.writer().wait([&](Stores& stores) -> Result<bool> {
     numbers.clear();
     for (const std::string_view id : revisions) {
       numbers.emplace_back(-stores.origins.add_revision(id), id);
@@ -278,24 +275,23 @@ Result<void> LogIntake::prepare(const ForwardedBatch& batch, Known& known) {
       }
     }
     return true;
-  });
-  if (!stored) return stored.error();
+  }));
   for (const auto& [number, id] : numbers) tables_.remember(number, id);
   origins_.remember(known.number, batch.origin);
   return {};
 }
 
 /// @returns false: the log has grown.
-Result<bool> LogIntake::store_rows(store::Stores& stores, const ForwardedBatch& batch,
-                                   const Known& known, const Judged& judged) const {
+Result<bool> LogIntake::store_rows(Stores& stores, const ForwardedBatch& batch, const Known& known,
+                                   const Judged& judged) const {
   auto origin = stores.origins.find(known.number);
   if (!origin || (!batch.rows.empty() && origin->size != batch.from - 1)) return false;
   const std::int64_t first = stores.measurements.last_id() + 1;
-  std::vector<store::MeasurementRow> rows;
+  std::vector<MeasurementRow> rows;
   for (std::size_t i = 0; i < batch.rows.size(); ++i) {
     const Measurement& m = batch.rows[i].measurement;
     const std::int64_t place = batch.from + static_cast<std::int64_t>(i);
-    store::MeasurementRow& row = rows.emplace_back(app::to_store(m));
+    MeasurementRow& row = rows.emplace_back(app::to_store(m));
     if (!m.table_revision.empty()) row.table_revision = tables_.revision_number(m.table_revision);
     row.id = first + static_cast<std::int64_t>(i);
     row.origin = known.number;
@@ -337,7 +333,7 @@ Result<bool> LogIntake::store_rows(store::Stores& stores, const ForwardedBatch& 
 
 /// Stores new notes on records that are here. They belong to the station's history, to an earlier
 /// one or to a branch of these.
-Result<void> LogIntake::store_notes(store::Stores& stores, const ForwardedBatch& batch,
+Result<void> LogIntake::store_notes(Stores& stores, const ForwardedBatch& batch,
                                     std::int64_t station) const {
   std::set<std::int64_t> histories;
   for (std::int64_t at = station; histories.insert(at).second;) {
@@ -379,7 +375,7 @@ void LogIntake::tell_branch(const ForwardedBatch& batch, const Known& known) con
 
 /// Keeps the signed proof that there are two histories of one log.
 void LogIntake::fork(const ForwardedBatch& batch, const Known& known) {
-  const auto is_new = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+  const auto is_new = database_.writer().wait([&](Stores& stores) -> Result<bool> {
     return stores.origins.add_fork(known.number, batch.checkpoint, clock_.now().nanoseconds);
   });
   if (!is_new || !*is_new) return;

@@ -1,22 +1,12 @@
 #pragma once
 
-#include "base/clock.hpp"
-#include "base/digest.hpp"
-#include "base/result.hpp"
 #include "db/store/keys_store.hpp"
-#include "proof/frontier.hpp"
 #include "proof/note.hpp"
 #include "record/measurement.hpp"
 #include "record/origins.hpp"
-
-namespace fitgauge::store {
-class Database;
-struct Stores;
-}  // namespace fitgauge::store
+#include "service/storage.hpp"
 
 namespace fitgauge::app {
-
-class TableCatalog;
 
 /// Rows of a station's log on their way to the centre, with the signed head that they lead to.
 /// Texts are views of memory that outlives the batch.
@@ -55,7 +45,7 @@ class LogIntake {
   /// The event's name and a sentence, for the log of the service.
   using Tell = std::function<void(std::string_view event, const std::string& detail)>;
 
-  LogIntake(store::Database& database, TableCatalog& tables, Origins& origins, const Clock& clock,
+  LogIntake(Database& database, TableCatalog& tables, Origins& origins, const Clock& clock,
             Tell tell)
       : database_(database),
         tables_(tables),
@@ -86,20 +76,18 @@ class LogIntake {
   struct Judged;
 
   Result<Known> read(const ForwardedBatch& batch) const;
-  Result<void> read_base(const store::Stores& stores, const ForwardedBatch& batch,
-                         Known& known) const;
+  Result<void> read_base(const Stores& stores, const ForwardedBatch& batch, Known& known) const;
   Result<void> trust(const ForwardedBatch& batch, Known& known) const;
   Result<void> check_rows(const ForwardedBatch& batch) const;
   Result<Judged> judge_tree(const ForwardedBatch& batch, const Known& known) const;
   Result<void> prepare(const ForwardedBatch& batch, Known& known);
   void tell_branch(const ForwardedBatch& batch, const Known& known) const;
-  Result<bool> store_rows(store::Stores& stores, const ForwardedBatch& batch, const Known& known,
+  Result<bool> store_rows(Stores& stores, const ForwardedBatch& batch, const Known& known,
                           const Judged& judged) const;
-  Result<void> store_notes(store::Stores& stores, const ForwardedBatch& batch,
-                           std::int64_t station) const;
+  Result<void> store_notes(Stores& stores, const ForwardedBatch& batch, std::int64_t station) const;
   void fork(const ForwardedBatch& batch, const Known& known);
 
-  store::Database& database_;
+  Database& database_;
   TableCatalog& tables_;
   Origins& origins_;
   const Clock& clock_;

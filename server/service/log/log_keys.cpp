@@ -56,8 +56,8 @@ std::vector<tlog::VerifierKey> TreeNames::keys(const std::vector<std::string>& t
 bool is_origin_name(std::string_view name) {
   const auto is_plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
   return !name.empty() && name.size() <= kLongestName && is_plain(name.front()) &&
-         std::all_of(name.begin(), name.end(),
-                     [&](char c) { return is_plain(c) || c == '.' || c == '/' || c == '-'; });
+         std::ranges::all_of(
+             name, [&](char c) { return is_plain(c) || c == '.' || c == '/' || c == '-'; });
 }
 
 Result<std::vector<tlog::SigningKey>> read_log_keys(const fs::path& folder) {
@@ -96,8 +96,8 @@ Result<std::string> renew_log_key(const fs::path& folder) {
         fmt::format("{} has no {}: start fitgauged once to make it", folder.string(), kLogKeyFile)};
   }
   const std::string name = keys.front().verifier().name();
-  const auto older = std::find_if(keys.begin(), keys.end(),
-                                  [&](const auto& key) { return key.verifier().name() != name; });
+  const auto older =
+      std::ranges::find_if(keys, [&](const auto& key) { return key.verifier().name() != name; });
   const auto made = tlog::SigningKey::make(name);
   std::vector<tlog::SigningKey> all{made};
   // Removes a new key that no start has used; those of former histories stay.

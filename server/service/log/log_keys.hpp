@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "base/result.hpp"
 #include "proof/note_key.hpp"
 
 namespace fitgauge::app {

@@ -5,7 +5,6 @@
 #include "record/record.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/log/log_reader.hpp"
-#include "service/measurements/mapping.hpp"
 #include "service/measurements/measurement_storage.hpp"
 #include "service/tables/table_catalog.hpp"
 
@@ -19,7 +18,7 @@ constexpr std::int64_t kNotesABatch = 500;
 
 Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most,
                                          std::optional<std::int64_t> noted) const {
-  return database_.readers().wait([&](const store::Stores& stores) -> Result<Batch> {
+  return database_.readers().wait([&](const Stores& stores) -> Result<Batch> {
     const RowNames names = row_names(tables_, log_.origins());
     std::vector<store::Note> notes;
     if (noted) notes = stores.notes.own_after(*noted, kNotesABatch);
@@ -44,7 +43,7 @@ Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most,
     std::size_t bytes = 0;
     for (std::int64_t at = after; at < end && bytes < kMostBytes;) {
       stores.measurements.list_log(
-          0, at, std::min(kRowsAPage, end - at), [&](const store::MeasurementRow& row) {
+          0, at, std::min(kRowsAPage, end - at), [&](const MeasurementRow& row) {
             ++at;
             if (bytes >= kMostBytes) return;
             append_record(batch.records.emplace_back(), from_store(row, names));
@@ -76,7 +75,7 @@ const LogService::History* LogOutbox::empty_history(std::int64_t note) const {
 
 /// @param place number of records of this folder that the centre has with the batch
 /// @param notes after that number
-void LogOutbox::add_notes(const store::Stores& stores, std::int64_t place, std::int64_t behind,
+void LogOutbox::add_notes(const Stores& stores, std::int64_t place, std::int64_t behind,
                           std::vector<store::Note> notes, Batch& batch) const {
   const Origins& origins = log_.origins();
   // The centre accepts them in their order: notes of a later history follow with its batches.
@@ -88,7 +87,7 @@ void LogOutbox::add_notes(const store::Stores& stores, std::int64_t place, std::
     const LogService::History* const of = empty_history(note.id);
     if (note.id > last || (of != nullptr && of->digits != batch.origin)) return;
     std::string record;
-    stores.measurements.find(note.measurement, [&](const store::MeasurementRow& row) {
+    stores.measurements.find(note.measurement, [&](const MeasurementRow& row) {
       if (!row.is_forwarded() && row.place_in_log() > place) return;
       const std::int64_t number = row.public_number();
       record = measurement_id_text(number, origins.digits(row.origin.value_or(0), number));
@@ -108,7 +107,7 @@ bool LogOutbox::is_note_of(std::string_view history, std::int64_t number) const 
 
 Result<std::optional<bool>> LogOutbox::begins_with(std::int64_t size,
                                                    const tlog::Hash& root) const {
-  return database_.readers().wait([&](const store::Stores& stores) -> Result<std::optional<bool>> {
+  return database_.readers().wait([&](const Stores& stores) -> Result<std::optional<bool>> {
     if (size > stores.log.state().size) return std::optional<bool>();
     const RowNames names = row_names(tables_, log_.origins());
     LogReader reader(stores, names);
@@ -117,36 +116,32 @@ Result<std::optional<bool>> LogOutbox::begins_with(std::int64_t size,
 }
 
 Result<std::int64_t> LogOutbox::confirmed(std::string_view centre) const {
-  return database_.readers().wait([&](const store::Stores& stores) -> Result<std::int64_t> {
+  return database_.readers().wait([&](const Stores& stores) -> Result<std::int64_t> {
     const auto forwarded = stores.origins.forwarded();
     return forwarded && forwarded->centre == centre ? forwarded->size : 0;
   });
 }
 
 Result<void> LogOutbox::confirm(std::string_view centre, std::int64_t size) const {
-  const auto stored = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+  return database_.writer().wait([&](Stores& stores) -> Result<void> {
     stores.origins.set_forwarded({.centre = std::string(centre), .size = size});
-    return true;
+    return {};
   });
-  if (!stored) return stored.error();
-  return {};
 }
 
 std::string_view LogOutbox::newest_history() const {
-  const auto rows =
-      database_.readers().wait([](const store::Stores& stores) -> Result<std::int64_t> {
-        return stores.measurements.log_size();
-      });
+  const auto rows = database_.readers().wait(
+      [](const Stores& stores) -> Result<std::int64_t> { return stores.measurements.log_size(); });
   return log_.history_of(rows ? *rows : std::numeric_limits<std::int64_t>::max()).digits;
 }
 
 void LogOutbox::meet(std::string_view centre) const {
   const auto known = database_.readers().wait(
-      [](const store::Stores& stores) -> Result<std::optional<std::string>> {
+      [](const Stores& stores) -> Result<std::optional<std::string>> {
         return stores.log.mark(store::LogStore::Mark::Centre);
       });
   if (!known || *known == centre) return;
-  static_cast<void>(database_.writer().wait([centre](store::Stores& stores) -> Result<bool> {
+  static_cast<void>(database_.writer().wait([centre](Stores& stores) -> Result<bool> {
     stores.log.set_mark(store::LogStore::Mark::Centre, std::string(centre));
     return true;
   }));
@@ -159,9 +154,9 @@ void LogOutbox::set_forked(const std::optional<std::string>& why) const {
 std::int64_t LogOutbox::committed() const { return database_.writer_counters().own_rows; }
 
 Result<LogOutbox::Waiting> LogOutbox::waiting(std::int64_t confirmed) const {
-  return database_.readers().wait([&](const store::Stores& stores) -> Result<Waiting> {
+  return database_.readers().wait([&](const Stores& stores) -> Result<Waiting> {
     Waiting waiting{.rows = std::max<std::int64_t>(0, stores.measurements.log_size() - confirmed)};
-    stores.measurements.list_log(0, confirmed, 1, [&](const store::MeasurementRow& row) {
+    stores.measurements.list_log(0, confirmed, 1, [&](const MeasurementRow& row) {
       waiting.oldest = Timestamp{row.received_at_ns};
     });
     return waiting;

@@ -1,16 +1,10 @@
 #pragma once
 
-#include "base/clock.hpp"
-#include "base/result.hpp"
 #include "db/store/documents_store.hpp"
-#include "db/store/keys_store.hpp"
-#include "proof/frontier.hpp"
 #include "service/log/log_intake.hpp"
 #include "service/log/log_service.hpp"
 
 namespace fitgauge::app {
-
-class TableCatalog;
 
 /// The part of this folder's log that a centre does not have yet. The log itself is the outbox;
 /// only the confirmed position is stored with it. Functions block. Thread-safe.
@@ -19,7 +13,7 @@ class LogOutbox {
   static constexpr std::int64_t kMostRows = 10'000;
   static constexpr std::size_t kMostBytes = std::size_t{8} << 20;
 
-  LogOutbox(store::Database& database, const TableCatalog& tables, LogService& log)
+  LogOutbox(Database& database, const TableCatalog& tables, LogService& log)
       : database_(database), tables_(tables), log_(log) {}
 
   struct Batch {
@@ -77,10 +71,10 @@ class LogOutbox {
 
  private:
   const LogService::History* empty_history(std::int64_t note) const;
-  void add_notes(const store::Stores& stores, std::int64_t place, std::int64_t behind,
+  void add_notes(const Stores& stores, std::int64_t place, std::int64_t behind,
                  std::vector<store::Note> notes, Batch& batch) const;
 
-  store::Database& database_;
+  Database& database_;
   const TableCatalog& tables_;
   LogService& log_;
 };

@@ -1,15 +1,11 @@
 #include <sstream>
 
 #include "base/number.hpp"
-#include "base/thread.hpp"
 #include "db/store/database.hpp"
-#include "proof/frontier.hpp"
-#include "proof/note.hpp"
 #include "service/log/changes.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/log/log_reader.hpp"
 #include "service/log/log_service.hpp"
-#include "service/measurements/mapping.hpp"
 #include "service/measurements/measurement_storage.hpp"
 #include "service/tables/table_catalog.hpp"
 
@@ -32,7 +28,7 @@ Error unknown_tile(std::string_view path) {
 void LogService::prove(const RecordName& name, Done<Proof> done) {
   const auto asked = Steady::now();
   database_.readers().submit(
-      [this, name](const store::Stores& stores) { return read_proof(stores, name); },
+      [this, name](const Stores& stores) { return read_proof(stores, name); },
       [this, name, asked, done = std::move(done)](Result<Proof> proof) mutable {
         if (!proof || proof->index < proof->head->checkpoint.size) return done(std::move(proof));
         std::unique_lock lock(mutex_);
@@ -49,15 +45,14 @@ void LogService::prove(const RecordName& name, Done<Proof> done) {
       });
 }
 
-Result<LogService::Proof> LogService::read_proof(const store::Stores& stores,
-                                                 const RecordName& name) {
+Result<LogService::Proof> LogService::read_proof(const Stores& stores, const RecordName& name) {
   // The state of the job's first statement is not older than a head that was read before it.
   Proof proof{.index = 0, .leaf = {}, .path = {}, .head = head_.get()};
   const auto row = row_of(stores, name);
   std::int64_t place = 0;
   if (row) {
-    stores.measurements.find(
-        *row, [&](const store::MeasurementRow& found) { place = found.place_in_log(); });
+    stores.measurements.find(*row,
+                             [&](const MeasurementRow& found) { place = found.place_in_log(); });
   }
   if (place == 0) {
     return Error{
@@ -87,7 +82,7 @@ Result<LogService::Proof> LogService::read_proof(const store::Stores& stores,
 
 /// Returns the head of a forwarded log, with a signature of this folder in addition to the
 /// station's; none for a log with only corrections here.
-std::shared_ptr<const LogService::Head> LogService::countersigned(const store::Stores& stores,
+std::shared_ptr<const LogService::Head> LogService::countersigned(const Stores& stores,
                                                                   std::int64_t origin) const {
   auto head = std::make_shared<Head>();
   if (stores.origins.find(origin)->size == 0) return nullptr;
@@ -128,7 +123,7 @@ void LogService::tile(std::string_view path, bool of_changes, Done<TileBytes> do
   }
   database_.readers().submit(
       [this, of_changes, tile = *tile,
-       path = std::string(path)](const store::Stores& stores) -> Result<TileBytes> {
+       path = std::string(path)](const Stores& stores) -> Result<TileBytes> {
         if (of_changes &&
             !tlog::has_tile(static_cast<std::uint64_t>(stores.changes.size()), tile)) {
           return unknown_tile(path);
@@ -145,7 +140,7 @@ void LogService::changes(store::ChangeFilter filter, std::string after, std::int
                          Done<ChangePage> done) const {
   database_.readers().submit(
       [filter = std::move(filter), after = std::move(after),
-       limit](const store::Stores& stores) -> Result<ChangePage> {
+       limit](const Stores& stores) -> Result<ChangePage> {
         std::vector<std::pair<std::string, std::int64_t>> histories;  // and the last of each
         for (const auto& ended : stores.log.branches()) {
           histories.emplace_back(digits_of_origin(ended.origin),
@@ -183,7 +178,7 @@ void LogService::changes(store::ChangeFilter filter, std::string after, std::int
 
 void LogService::changes_head(Done<std::string> done) {
   database_.readers().submit(
-      [this](const store::Stores& stores) -> Result<std::string> {
+      [this](const Stores& stores) -> Result<std::string> {
         const std::lock_guard lock(changes_mutex_);
         const auto size = static_cast<std::uint64_t>(stores.changes.size());
         // A job that sees fewer changes than another job uses the other's head.

@@ -36,7 +36,7 @@ std::vector<std::string> LogReader::records(std::int64_t after, std::int64_t cou
     }
     return records;
   }
-  stores_.measurements.list_log(origin_, after, count, [&](const store::MeasurementRow& row) {
+  stores_.measurements.list_log(origin_, after, count, [&](const MeasurementRow& row) {
     append_record(records.emplace_back(), from_store(row, names_));
   });
   return records;

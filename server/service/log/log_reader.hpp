@@ -1,7 +1,6 @@
 #pragma once
 
 #include "db/store/stores.hpp"
-#include "proof/frontier.hpp"
 #include "service/log/leaf.hpp"
 #include "service/measurements/mapping.hpp"
 
@@ -15,7 +14,7 @@ class LogReader {
   static constexpr std::int64_t kChanges = std::numeric_limits<std::int64_t>::max();
 
   /// @param origin 0: this folder.
-  LogReader(const store::Stores& stores, const RowNames& names, std::int64_t origin = 0)
+  LogReader(const Stores& stores, const RowNames& names, std::int64_t origin = 0)
       : stores_(stores), names_(names), origin_(origin) {
     if (origin > 0 && origin != kChanges) base_ = stores.origins.base(origin);
   }
@@ -40,7 +39,7 @@ class LogReader {
   tlog::Hash root_of(std::vector<tlog::Hash> level);
   std::vector<tlog::Hash> hashes(unsigned tile_level, std::uint64_t first, std::uint64_t count);
 
-  const store::Stores& stores_;
+  const Stores& stores_;
   const RowNames& names_;
   const std::int64_t origin_;
   std::optional<store::OriginsStore::Base> base_{};  ///< a branch begins with rows of another log

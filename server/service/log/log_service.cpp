@@ -1,11 +1,8 @@
 #include "service/log/log_service.hpp"
 
-#include "base/digest.hpp"
 #include "db/store/database.hpp"
-#include "db/store/stores.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/log/log_reader.hpp"
-#include "service/measurements/mapping.hpp"
 #include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::app {
@@ -22,7 +19,7 @@ constexpr std::uint64_t kLeavesACommit = 1'000'000;
 
 }  // namespace
 
-LogService::LogService(store::Database& database, const TableCatalog& tables, const Clock& clock,
+LogService::LogService(Database& database, const TableCatalog& tables, const Clock& clock,
                        LogOptions options)
     : database_(database), tables_(tables), clock_(clock), options_(std::move(options)) {}
 
@@ -32,9 +29,8 @@ void LogService::tell(std::string_view event, const std::string& detail) const {
 
 LogService::~LogService() { stop(); }
 
-Result<std::unique_ptr<LogService>> LogService::open(store::Database& database,
-                                                     const TableCatalog& tables, const Clock& clock,
-                                                     LogOptions options) {
+Result<std::unique_ptr<LogService>> LogService::open(Database& database, const TableCatalog& tables,
+                                                     const Clock& clock, LogOptions options) {
   std::unique_ptr<LogService> log(new LogService(database, tables, clock, std::move(options)));
   TRY(log->load());
   return log;
@@ -43,11 +39,10 @@ Result<std::unique_ptr<LogService>> LogService::open(store::Database& database,
 Result<void> LogService::set_forked(const std::optional<std::string>& why) {
   if (why.has_value() == forked().has_value()) return {};
   forked_.set(std::make_shared<const std::string>(why.value_or("")));
-  const auto stored = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+  TRY(database_.writer().wait([&](Stores& stores) -> Result<bool> {
     stores.log.set_mark(store::LogStore::Mark::Forked, why);
     return true;
-  });
-  if (!stored) return stored.error();
+  }));
   if (why) tell("log_forked", *why);
   return {};
 }
@@ -59,14 +54,14 @@ std::optional<Error> LogService::forked() const {
 }
 
 const LogService::History& LogService::history_of(std::int64_t place) const {
-  return *std::find_if(histories_.begin(), histories_.end(), [place](const History& history) {
+  return *std::ranges::find_if(histories_, [place](const History& history) {
     return !history.end || place <= *history.end;
   });
 }
 
 const LogService::History& LogService::history_of(std::string_view digits) const {
-  return *std::find_if(histories_.begin(), histories_.end(),
-                       [digits](const History& history) { return history.digits == digits; });
+  return *std::ranges::find_if(
+      histories_, [digits](const History& history) { return history.digits == digits; });
 }
 
 void LogService::start() {
@@ -82,7 +77,7 @@ void LogService::committed() {
   wake_.notify_one();
 }
 
-void LogService::take_names(const store::Stores& stores) {
+void LogService::take_names(const Stores& stores) {
   if (digits_of_origin(stores.log.state().origin) != origin()) {
     throw store::StorageFailure({ErrorCode::StorageUnavailable,
                                  "an older copy of the database was restored, and another service "
@@ -134,7 +129,7 @@ void LogService::run(const std::stop_token& stop) {
   }
   guarded("the log's end", [this] {
     // After the jobs that wait for the writer, which committed() does not report.
-    const auto nothing = [](store::Stores&) -> Result<bool> { return true; };
+    const auto nothing = [](Stores&) -> Result<bool> { return true; };
     if (!database_.writer().wait(nothing)) return;
     const auto end = Steady::now() + kLastGrowth;
     static_cast<void>(grow([end] { return Steady::now() >= end; }));
@@ -158,11 +153,10 @@ Result<void> LogService::grow(const IsOver& is_over) {
     Stretch stretch{.grown = frontier_};
     TRY(take_leaves(is_over, stretch));
     if (stretch.grown.size() == frontier_.size()) break;
-    const auto kept = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+    TRY(database_.writer().wait([&](Stores& stores) -> Result<bool> {
       stores.log.grow(static_cast<std::int64_t>(stretch.grown.size()), stretch.nodes);
       return true;
-    });
-    if (!kept) return kept.error();
+    }));
     frontier_ = std::move(stretch.grown);
     more = stretch.more;
   }
@@ -178,13 +172,12 @@ Result<void> LogService::take_leaves(const IsOver& is_over, Stretch& stretch) {
   const std::uint64_t end = grown.size() + kLeavesACommit;
   while (stretch.more && grown.size() < end && !is_over()) {
     const auto size = static_cast<std::int64_t>(grown.size());
-    const auto leaves = database_.readers().wait(
-        [this, size](const store::Stores& stores) -> Result<std::vector<tlog::Hash>> {
+    const auto leaves = TRY(database_.readers().wait(
+        [this, size](const Stores& stores) -> Result<std::vector<tlog::Hash>> {
           const RowNames names = row_names(tables_, origins_);
           return LogReader(stores, names).leaves(size, kLeavesAtATime);
-        });
-    if (!leaves) return leaves.error();
-    for (const tlog::Hash& leaf : *leaves) {
+        }));
+    for (const tlog::Hash& leaf : leaves) {
       const unsigned completed = grown.append(leaf);
       for (unsigned level = tlog::kTileHeight; level < completed; level += tlog::kTileHeight) {
         stretch.nodes.push_back({.level = static_cast<int>(level / tlog::kTileHeight),
@@ -192,7 +185,7 @@ Result<void> LogService::take_leaves(const IsOver& is_over, Stretch& stretch) {
                                  .hash = grown.completed(level)});
       }
     }
-    stretch.more = leaves->size() == static_cast<std::size_t>(kLeavesAtATime);
+    stretch.more = leaves.size() == static_cast<std::size_t>(kLeavesAtATime);
   }
   return {};
 }
@@ -235,7 +228,7 @@ std::string LogService::head_text() const {
                      tlog::to_base64(head->checkpoint.root));
 }
 
-std::string LogService::sign_at(const store::Stores& stores, const History& history,
+std::string LogService::sign_at(const Stores& stores, const History& history,
                                 std::uint64_t size) const {
   const RowNames names = row_names(tables_, origins_);
   LogReader reader(stores, names);
@@ -255,7 +248,7 @@ std::vector<std::string> LogService::hand_overs() const {
     if (note && *note && next_key_of(**note)) notes.push_back(**note);
   }
   // A later checkpoint has signed at least as many measurements.
-  std::sort(notes.begin(), notes.end(), [](const std::string& a, const std::string& b) {
+  std::ranges::sort(notes, [](const std::string& a, const std::string& b) {
     const auto size = [](const std::string& note) {
       const auto checkpoint = tlog::parse_checkpoint(note);
       return checkpoint ? checkpoint->size : 0;
@@ -265,8 +258,8 @@ std::vector<std::string> LogService::hand_overs() const {
   return notes;
 }
 
-Result<LogService::Logs> LogService::logs(store::Database& database) {
-  return database.readers().wait([](const store::Stores& stores) -> Result<Logs> {
+Result<LogService::Logs> LogService::logs(Database& database) {
+  return database.readers().wait([](const Stores& stores) -> Result<Logs> {
     const store::LogStore::State state = stores.log.state();
     Logs logs;
     logs[0] = {.name = state.name.value_or(""),

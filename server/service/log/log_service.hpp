@@ -2,23 +2,15 @@
 
 #include <filesystem>
 
-#include "base/clock.hpp"
-#include "base/result.hpp"
 #include "base/thread.hpp"
 #include "db/store/log_store.hpp"
-#include "proof/frontier.hpp"
 #include "proof/note.hpp"
 #include "record/measurement.hpp"
 #include "record/origins.hpp"
-
-namespace fitgauge::store {
-class Database;
-struct Stores;
-}  // namespace fitgauge::store
+#include "service/storage.hpp"
 
 namespace fitgauge::app {
 
-class TableCatalog;
 struct TreeNames;
 
 /// The state of a history at the centre.
@@ -49,9 +41,8 @@ class LogService {
   /// rows that are not in the tree follow in the background. If the database may be an older copy
   /// of one with more ids, a branch begins: another origin, name and key.
   /// @errors StorageUnavailable, StorageCorrupt, KeyMalformed.
-  static Result<std::unique_ptr<LogService>> open(store::Database& database,
-                                                  const TableCatalog& tables, const Clock& clock,
-                                                  LogOptions options);
+  static Result<std::unique_ptr<LogService>> open(Database& database, const TableCatalog& tables,
+                                                  const Clock& clock, LogOptions options);
   ~LogService();
 
   /// The end of new ids of this folder: the first 16 hexadecimal digits of its origin.
@@ -96,7 +87,7 @@ class LogService {
   /// Loads origins and keys that other daemons have added. Used inside a job.
   /// @throws store::StorageFailure if one of them has begun a branch: this daemon continues the
   /// history below it, and must be restarted.
-  void take_names(const store::Stores& stores);
+  void take_names(const Stores& stores);
 
   /// The public keys, one a line, the newest first.
   std::string verifier_keys() const;
@@ -154,13 +145,12 @@ class LogService {
   };
   /// Logs by origin: 0 is this folder, the last origin is its changes.
   using Logs = std::map<std::int64_t, Facts>;
-  static Result<Logs> logs(store::Database& database);
+  static Result<Logs> logs(Database& database);
 
   /// Returns the head of the first `size` measurements of this folder, signed for a history that
   /// has its signer. It is not published as the newest one. @pre the tree has so many. Used inside
   /// a read job.
-  std::string sign_at(const store::Stores& stores, const History& history,
-                      std::uint64_t size) const;
+  std::string sign_at(const Stores& stores, const History& history, std::uint64_t size) const;
 
   /// Checkpoints that two consecutive keys signed, as stored in the folder.
   std::vector<std::string> hand_overs() const;
@@ -174,7 +164,7 @@ class LogService {
     Done<Proof> done;
   };
 
-  LogService(store::Database& database, const TableCatalog& tables, const Clock& clock,
+  LogService(Database& database, const TableCatalog& tables, const Clock& clock,
              LogOptions options);
 
   struct Loaded;
@@ -202,10 +192,10 @@ class LogService {
   void tell(std::string_view event, const std::string& detail) const;
   void end_waiters(std::unique_lock<std::mutex>& lock);
   static Error shutting_down() { return {ErrorCode::ShuttingDown, "the service is shutting down"}; }
-  Result<Proof> read_proof(const store::Stores& stores, const RecordName& name);
-  std::shared_ptr<const Head> countersigned(const store::Stores& stores, std::int64_t origin) const;
+  Result<Proof> read_proof(const Stores& stores, const RecordName& name);
+  std::shared_ptr<const Head> countersigned(const Stores& stores, std::int64_t origin) const;
 
-  store::Database& database_;
+  Database& database_;
   const TableCatalog& tables_;
   const Clock& clock_;
   const LogOptions options_;

@@ -2,11 +2,9 @@
 #include <random>
 
 #include "db/store/database.hpp"
-#include "proof/note.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/log/log_reader.hpp"
 #include "service/log/log_service.hpp"
-#include "service/measurements/mapping.hpp"
 #include "service/tables/table_catalog.hpp"
 
 // The begin of a folder's log: its history and its key. Its growth is in log_service.cpp.
@@ -49,8 +47,8 @@ std::optional<std::string> name_in_folder(const std::filesystem::path& folder,
     for (const tlog::SigningKey& key : *keys) names.push_back(key.verifier().name());
   }
   const std::string ending = "/" + digits.substr(0, kDigitsInName);
-  const auto name = std::find_if(names.begin(), names.end(),
-                                 [&](const auto& each) { return each.ends_with(ending); });
+  const auto name =
+      std::ranges::find_if(names, [&](const auto& each) { return each.ends_with(ending); });
   return name == names.end() ? std::nullopt : std::optional(*name);
 }
 
@@ -84,7 +82,7 @@ struct LogService::Loaded {
 };
 
 Result<LogService::Loaded> LogService::read() const {
-  return database_.readers().wait([](const store::Stores& stores) -> Result<Loaded> {
+  return database_.readers().wait([](const Stores& stores) -> Result<Loaded> {
     return Loaded{.state = stores.log.state(),
                   .branches = stores.log.branches(),
                   .keys = stores.log.keys(),
@@ -116,7 +114,7 @@ Result<void> LogService::settle_place(Loaded& loaded) {
 /// @errors LogForked if it is not the database that this daemon has signed.
 Result<void> LogService::keep_place() const {
   if (!options_.shares) return {};
-  const auto is_kept = TRY(database_.readers().wait([&](const store::Stores& stores) {
+  const auto is_kept = TRY(database_.readers().wait([&](const Stores& stores) {
     const auto forked = [](std::string why) { return Error{ErrorCode::LogForked, std::move(why)}; };
     if (const auto why = stores.log.mark(Mark::Forked)) return Result<bool>(forked(*why));
     const auto kept = stores.log.mark(Mark::Place);
@@ -137,11 +135,10 @@ Result<void> LogService::keep_place() const {
     return Result<bool>(kept == place);
   }));
   if (is_kept) return {};
-  TRY(database_.writer().wait([](store::Stores& stores) -> Result<bool> {
+  return database_.writer().wait([](Stores& stores) -> Result<void> {
     stores.log.set_mark(Mark::Place, stores.log.place());
-    return true;
-  }));
-  return {};
+    return {};
+  });
 }
 
 Result<void> LogService::load() {
@@ -168,12 +165,11 @@ Result<void> LogService::load() {
   for (const auto& origin : loaded->origins) origins_.remember(origin.number, origin.digits);
   if (options_.attach) return {};
   const auto frontier =
-      database_.readers().wait([&](const store::Stores& stores) -> Result<tlog::Frontier> {
+      TRY(database_.readers().wait([&](const Stores& stores) -> Result<tlog::Frontier> {
         const RowNames names = row_names(tables_, origins_);
         return LogReader(stores, names).frontier(static_cast<std::uint64_t>(loaded->state.size));
-      });
-  if (!frontier) return frontier.error();
-  frontier_ = *frontier;
+      }));
+  frontier_ = frontier;
   name_ = loaded->state.name.value_or(name_of(options_.name, origin()));
   histories_.push_back({.digits = std::string(origin()), .name = name_, .begin = begin});
   if (is_renamed(name_, options_)) {
@@ -199,9 +195,8 @@ Result<void> LogService::load_keys(const std::vector<std::string>& known) {
   auto keys = TRY(read_log_keys(options_.directory));
   const bool is_in_order = !keys.empty() && keys.front().verifier().name() == name_;
   for (const tlog::SigningKey& key : keys) {
-    const auto history =
-        std::find_if(histories_.begin(), histories_.end(),
-                     [&](const History& each) { return each.name == key.verifier().name(); });
+    const auto history = std::ranges::find_if(
+        histories_, [&](const History& each) { return each.name == key.verifier().name(); });
     if (history != histories_.end() && !history->end) {
       signers_.push_back(key);
       continue;
@@ -214,7 +209,7 @@ Result<void> LogService::load_keys(const std::vector<std::string>& known) {
   if (is_made) signers_.push_back(tlog::SigningKey::make(name_));
   if (is_made || !is_in_order) TRY(write_keys());
   if (is_made) {
-    const bool was_there = std::any_of(known.begin(), known.end(), [this](const auto& text) {
+    const bool was_there = std::ranges::any_of(known, [this](const auto& text) {
       const auto key = tlog::VerifierKey::parse(text);
       return key && key->name() == name_;
     });
@@ -228,19 +223,17 @@ Result<void> LogService::load_keys(const std::vector<std::string>& known) {
   signer_ = histories_.back().signer = signers_.front();
   std::vector<std::string> all = known;
   const std::string newest = signers_.front().verifier().text();
-  const bool is_new = std::find(known.begin(), known.end(), newest) == known.end();
+  const bool is_new = std::ranges::find(known, newest) == known.end();
   if (is_new) all.insert(all.begin(), newest);
   std::string lines;
   for (const std::string& key : all) lines += key + "\n";
   verifier_keys_.set(std::make_shared<const std::string>(std::move(lines)));
   if (!is_new) return {};
-  const auto stored = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+  return database_.writer().wait([&](Stores& stores) -> Result<void> {
     stores.log.set_name(name_);
     stores.log.add_key(newest, clock_.now().nanoseconds);
-    return true;
+    return {};
   });
-  if (!stored) return stored.error();
-  return {};
 }
 
 /// Keys of other histories stay stored: they sign records that a centre lacks.
@@ -263,7 +256,7 @@ void LogService::set_aside(std::string_view name, std::string_view why) {
 /// The root of the first leaves. Those after the stored tree are appended: it may be shorter after
 /// a power failure.
 Result<tlog::Hash> LogService::root_of(const TreeNames& tree, std::uint64_t size) const {
-  return database_.readers().wait([&](const store::Stores& stores) -> Result<tlog::Hash> {
+  return database_.readers().wait([&](const Stores& stores) -> Result<tlog::Hash> {
     const RowNames names = row_names(tables_, origins_);
     const bool is_stored = tree.file == kCheckpointFile;
     LogReader reader(stores, names, is_stored ? 0 : LogReader::kChanges);
@@ -296,7 +289,7 @@ std::optional<std::string> LogService::told_by(const TreeNames& tree, std::int64
   const auto is_former = [&](const auto& ended) {
     return kept && kept->origin == tree.name(ended.name);
   };
-  if (std::any_of(loaded.branches.begin(), loaded.branches.end(), is_former)) return std::nullopt;
+  if (std::ranges::any_of(loaded.branches, is_former)) return std::nullopt;
   if (!kept || kept->origin != tree.name(*loaded.state.name)) {
     // A service that joins others after it was used with another database.
     const bool is_new_here =
@@ -349,7 +342,7 @@ std::optional<std::string> LogService::why_to_branch(Loaded& loaded) {
                        there->rows, loaded.rows);
   }
   if (there->is_branched) return "the centre has a branch of this log, which the database lacks";
-  const auto has_note = database_.readers().wait([&](const store::Stores& stores) -> Result<bool> {
+  const auto has_note = database_.readers().wait([&](const Stores& stores) -> Result<bool> {
     return there->note == 0 || !stores.notes.own_after(there->note - 1, 1).empty();
   });
   if (has_note && !*has_note) return "the centre has notes of this log that the database lacks";
@@ -365,7 +358,7 @@ Result<void> LogService::branch(const Loaded& loaded, const std::string& why) {
   const std::string& before = *loaded.state.name;
   const std::string name = name_of(loaded.takes_name(options_) ? options_.name : middle_of(before),
                                    digits_of_origin(origin));
-  const auto begun = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+  const auto begun = TRY(database_.writer().wait([&](Stores& stores) -> Result<bool> {
     // Another daemon may have been first.
     const auto state = stores.log.state();
     if (state.origin != loaded.state.origin) return false;
@@ -373,9 +366,8 @@ Result<void> LogService::branch(const Loaded& loaded, const std::string& why) {
     if (options_.shares) stores.log.set_mark(Mark::Place, stores.log.place());
     stores.log.begin_branch(stores.measurements.log_size(), origin, name);
     return true;
-  });
-  if (!begun) return begun.error();
-  if (*begun) {
+  }));
+  if (begun) {
     tell("log_branched", fmt::format("{} continues as {} after {} measurements, which keep their "
                                      "ids; later ids end with {}: {}",
                                      before, name, loaded.rows, digits_of_origin(origin), why));

@@ -14,14 +14,49 @@ struct MovedValue {
 class CorrectedPlaces {
  public:
   /// Adds a correction and its target, in any order; all of them before the first value.
-  void add(std::int64_t id, std::int64_t correction_of);
-  void finish_adding();
+  void add(std::int64_t id, std::int64_t correction_of) {
+    corrections_.push_back({id, correction_of});
+  }
+  void finish_adding() {
+    std::ranges::sort(corrections_, {}, &Correction::id);
+    // A corrected record was stored earlier, so that its chain is followed already.
+    for (auto correction = corrections_.begin(); correction != corrections_.end(); ++correction) {
+      const auto earlier = std::ranges::lower_bound(corrections_.begin(), correction,
+                                                    correction->replaced, {}, &Correction::id);
+      if (earlier != correction && earlier->id == correction->replaced) {
+        correction->replaced = earlier->replaced;
+      }
+      places_.push_back({.replaced = correction->replaced});
+    }
+    std::ranges::sort(places_, {}, &Place::replaced);
+  }
 
   /// Adds the id of the next value, which must be larger than the previous id.
-  void pass(std::int64_t id);
+  void pass(std::int64_t id) {
+    for (; next_place_ < places_.size() && places_[next_place_].replaced < id; ++next_place_) {
+      places_[next_place_].index = passed_;
+    }
+    while (next_correction_ < corrections_.size() && corrections_[next_correction_].id < id) {
+      ++next_correction_;
+    }
+    if (next_correction_ < corrections_.size() && corrections_[next_correction_].id == id) {
+      seen_.push_back({passed_, corrections_[next_correction_].replaced});
+    }
+    ++passed_;
+  }
 
   /// Returns the moved values in the order of their places.
-  std::vector<MovedValue> moves() const;
+  std::vector<MovedValue> moves() const {
+    std::vector<Seen> ordered = seen_;
+    std::ranges::stable_sort(ordered, {}, &Seen::replaced);
+    std::vector<MovedValue> moves;
+    moves.reserve(ordered.size());
+    for (const Seen& value : ordered) {
+      const auto place = std::ranges::lower_bound(places_, value.replaced, {}, &Place::replaced);
+      moves.push_back({.from = value.index, .to = place->index});
+    }
+    return moves;
+  }
 
  private:
   struct Correction {

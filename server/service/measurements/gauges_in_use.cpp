@@ -1,7 +1,5 @@
 #include "service/measurements/gauges_in_use.hpp"
 
-#include "base/json/json_value.hpp"
-#include "record/fields.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/measurements/uncertainty_budget.hpp"
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "base/thread.hpp"
 #include "record/measurement_batch.hpp"
 

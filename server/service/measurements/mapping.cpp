@@ -29,7 +29,7 @@ static_assert(code_of<store::Rule>(gauging::DecisionRule::Kind::Conformance) ==
               store::Rule::Conformance);
 
 /// The rule of a row. @throws boost::system::system_error for numbers that no rule has.
-gauging::DecisionRule rule_of(const store::MeasurementRow& row) {
+gauging::DecisionRule rule_of(const MeasurementRow& row) {
   if (row.rule == store::Rule::Simple) return {};
   const bool is_guarded = row.rule == store::Rule::GuardBand;
   return api::make_rule({.kind = value_of<gauging::DecisionRule::Kind>(row.rule),
@@ -110,8 +110,8 @@ RowNames row_names(const TableCatalog& tables, const Origins& origins) {
                                std::int64_t number) { return origins.digits(origin, number); }};
 }
 
-store::MeasurementRow to_store(const Measurement& m) {
-  store::MeasurementRow row;
+MeasurementRow to_store(const Measurement& m) {
+  MeasurementRow row;
   static_cast<MeasurementFields&>(row) = m;
   row.id = m.id;
   row.source = code_of<store::Source>(m.source);
@@ -149,7 +149,7 @@ store::MeasurementRow to_store(const Measurement& m) {
   return row;
 }
 
-Measurement from_store(const store::MeasurementRow& row, const RowNames& names) {
+Measurement from_store(const MeasurementRow& row, const RowNames& names) {
   Measurement m;
   static_cast<MeasurementFields&>(m) = row;
   m.id = row.public_number();

@@ -1,9 +1,6 @@
 #pragma once
 
-#include "db/store/keys_store.hpp"
-#include "db/store/measurement_row.hpp"
 #include "db/store/tables_store.hpp"
-#include "record/measurement.hpp"
 #include "service/measurements/measurement_service.hpp"
 #include "tables/iso286/table_data.hpp"
 
@@ -15,7 +12,7 @@ store::TableContent to_store(const iso286::TableData& data);
 Result<iso286::TableData> from_store(const store::TableContent& content);
 
 /// @pre a measurement with a table revision also has the number of this revision
-store::MeasurementRow to_store(const Measurement& measurement);
+MeasurementRow to_store(const Measurement& measurement);
 
 /// Outside names of the numbers in a row; valid as long as the catalog and the origins.
 struct RowNames {
@@ -24,7 +21,7 @@ struct RowNames {
   std::function<std::string_view(std::int64_t origin, std::int64_t number)> origin;
 };
 RowNames row_names(const TableCatalog& tables, const Origins& origins);
-Measurement from_store(const store::MeasurementRow& row, const RowNames& names);
+Measurement from_store(const MeasurementRow& row, const RowNames& names);
 
 store::IdempotentRequest to_store(const IdempotencyScope& scope);
 

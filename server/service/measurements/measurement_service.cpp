@@ -20,7 +20,7 @@ std::optional<Length> limit_of(std::int64_t nanometres) {
   return -kLongest < limit && limit < kLongest ? std::optional(limit) : std::nullopt;
 }
 
-bool is_in_conflict(const store::Stores& stores, const store::MeasurementRow& row) {
+bool is_in_conflict(const Stores& stores, const MeasurementRow& row) {
   return row.correction_of && stores.measurements.has_rivals(*row.correction_of);
 }
 
@@ -28,18 +28,17 @@ bool is_in_conflict(const store::Stores& stores, const store::MeasurementRow& ro
 
 void MeasurementService::find(const RecordName& name, Visitor visit, Done<std::int64_t> done) {
   database_.readers().submit(
-      [this, name, visit = std::move(visit)](const store::Stores& stores) -> Result<std::int64_t> {
+      [this, name, visit = std::move(visit)](const Stores& stores) -> Result<std::int64_t> {
         const RowNames names = row_names(tables_, origins_);
         const auto row = row_of(stores, name);
         const auto newer = row ? stores.measurements.corrected_by(*row) : std::nullopt;
         std::optional<Measurement> correction;
         if (newer) {
-          stores.measurements.find(*newer, [&](const store::MeasurementRow& found) {
-            correction = from_store(found, names);
-          });
+          stores.measurements.find(
+              *newer, [&](const MeasurementRow& found) { correction = from_store(found, names); });
         }
         const bool found =
-            row && stores.measurements.find(*row, [&](const store::MeasurementRow& original) {
+            row && stores.measurements.find(*row, [&](const MeasurementRow& original) {
               Measurement measurement = from_store(original, names);
               if (correction) {
                 measurement.corrected_by = correction->id;
@@ -56,7 +55,7 @@ void MeasurementService::find(const RecordName& name, Visitor visit, Done<std::i
 
 void MeasurementService::list_notes(const RecordName& name, Done<std::vector<Note>> done) {
   database_.readers().submit(
-      [this, name](const store::Stores& stores) -> Result<std::vector<Note>> {
+      [this, name](const Stores& stores) -> Result<std::vector<Note>> {
         const auto row = TRY(existing_row_of(stores, name, origins_));
         return notes_of(stores, row,
                         measurement_id_text(name.number, origins_.digits(name.origin, name.number)),
@@ -71,7 +70,7 @@ void MeasurementService::list(const MeasurementQuery& query, std::int64_t after,
       [this, filter = static_cast<const store::MeasurementFilter&>(query), after, limit,
        last = query.last, behind = query.after, shows_notes = query.shows_notes,
        order = query.newest_first ? store::ListOrder::NewestFirst : store::ListOrder::OldestFirst,
-       visit = std::move(visit)](const store::Stores& stores) mutable -> Result<ListPage> {
+       visit = std::move(visit)](const Stores& stores) mutable -> Result<ListPage> {
         if (!filter.as_of_id) filter.as_of_id = stores.measurements.last_id();
         if (behind) {
           const auto row = row_of(stores, *behind);
@@ -87,7 +86,7 @@ void MeasurementService::list(const MeasurementQuery& query, std::int64_t after,
         const RowNames names = row_names(tables_, origins_);
         const auto next = stores.measurements.list(
             filter, after, limit,
-            [&](const store::MeasurementRow& row) {
+            [&](const MeasurementRow& row) {
               Measurement measurement = from_store(row, names);
               measurement.conflict = is_in_conflict(stores, row);
               std::vector<Note> notes;
@@ -113,11 +112,11 @@ Result<ReadValues> MeasurementService::read_values(const MeasurementQuery& query
   CorrectedPlaces places;
   std::vector<MeasuredRun::Value> values;
   while (after) {
-    auto next = database_.readers().wait(
-        [&](const store::Stores& stores) -> Result<std::optional<std::int64_t>> {
+    auto next = TRY(
+        database_.readers().wait([&](const Stores& stores) -> Result<std::optional<std::int64_t>> {
           if (!filter.as_of_id) {
             filter.as_of_id = stores.measurements.last_id();
-            stores.measurements.find(*filter.as_of_id, [&](const store::MeasurementRow& row) {
+            stores.measurements.find(*filter.as_of_id, [&](const MeasurementRow& row) {
               newest =
                   measurement_id_text(row.public_number(),
                                       origins_.digits(row.origin.value_or(0), row.public_number()));
@@ -158,24 +157,24 @@ Result<ReadValues> MeasurementService::read_values(const MeasurementQuery& query
               });
           if (!taken) return taken.error();
           return more;
-        });
-    if (!next) return next.error();
-    after = *next;
+        }));
+    after = next;
   }
   return ReadValues{.as_of = std::move(newest), .moves = places.moves()};
 }
 
 void MeasurementService::summary(const MeasurementQuery& query, std::string_view group_by,
                                  Done<std::vector<MeasurementGroup>> done) {
-  const auto field = std::find(kTextFilters.begin(), kTextFilters.end(), group_by);
+  const auto field = std::ranges::find(kTextFilters, group_by);
   if (field == kTextFilters.end()) {
     return done(Error{ErrorCode::QueryInvalid, "group_by must name one field or more"});
   }
   const auto number = static_cast<std::size_t>(field - kTextFilters.begin());
   const store::TextField group = store::kTextColumns.at(number).field;
   database_.readers().submit(
-      [filter = static_cast<const store::MeasurementFilter&>(query),
-       group](const store::Stores& stores) { return stores.measurements.summary(filter, group); },
+      [filter = static_cast<const store::MeasurementFilter&>(query), group](const Stores& stores) {
+        return stores.measurements.summary(filter, group);
+      },
       std::move(done));
 }
 

@@ -2,19 +2,13 @@
 
 #include "db/store/keys_store.hpp"
 #include "db/store/measurement_index.hpp"
-#include "db/store/measurement_row.hpp"
 #include "record/measurement.hpp"
 #include "service/measurements/corrected_places.hpp"
-
-namespace fitgauge::store {
-class Database;
-}
+#include "service/storage.hpp"
 
 namespace fitgauge::app {
 
 class MeasurementQueue;
-class Origins;
-class TableCatalog;
 
 /// A response that can be stored under an idempotency key and replayed.
 using Answer = store::StoredAnswer;
@@ -100,7 +94,7 @@ class Rendering {
 class MeasurementService {
  public:
   /// @param origins outlive the service.
-  MeasurementService(store::Database& database, const TableCatalog& tables, const Origins& origins,
+  MeasurementService(Database& database, const TableCatalog& tables, const Origins& origins,
                      const MeasurementServiceOptions& options);
 
   /// @errors MeasurementUnknown.
@@ -175,7 +169,7 @@ class MeasurementService {
   template <class Work>
   void submit(const std::optional<IdempotencyScope>& scope, Work work, Done<Answer> done);
 
-  store::Database& database_;
+  Database& database_;
   const TableCatalog& tables_;
   const Origins& origins_;
   const std::shared_ptr<MeasurementQueue> queue_;  ///< shared with its jobs

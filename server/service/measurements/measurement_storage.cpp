@@ -3,18 +3,16 @@
 #include "record/note.hpp"
 #include "record/origins.hpp"
 #include "service/measurements/mapping.hpp"
-#include "service/measurements/measurement_service.hpp"
 #include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::app {
 namespace {
 
 /// The store knows ids as numbers: this error names them as the outside does.
-Error corrected_before(const store::Stores& stores, const Measurement& correction,
-                       std::int64_t row) {
+Error corrected_before(const Stores& stores, const Measurement& correction, std::int64_t row) {
   std::string newer = "one of another folder";
   stores.measurements.find(stores.measurements.replaced_by(row).value_or(0),
-                           [&](const store::MeasurementRow& found) {
+                           [&](const MeasurementRow& found) {
                              if (found.is_forwarded()) return;
                              newer = measurement_id_text(found.id, correction.origin);
                            });
@@ -47,8 +45,8 @@ std::int64_t number_from(std::int64_t first, std::string_view origin,
   return first;
 }
 
-void append_rows(std::vector<store::MeasurementRow>& rows,
-                 std::span<const Measurement> measurements, LeafMaker& leaves) {
+void append_rows(std::vector<MeasurementRow>& rows, std::span<const Measurement> measurements,
+                 LeafMaker& leaves) {
   const auto made = leaves(measurements);
   for (std::size_t i = 0; i < measurements.size(); ++i) {
     rows.push_back(to_store(measurements[i]));
@@ -56,12 +54,12 @@ void append_rows(std::vector<store::MeasurementRow>& rows,
   }
 }
 
-Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measurements,
+Result<std::int64_t> append(Stores& stores, std::span<Measurement> measurements,
                             std::string_view origin, Rendering* rendering) {
   const std::int64_t first = stores.measurements.last_id() + 1;
   number_from(first, origin, measurements);
   LeafMaker leaves;
-  std::vector<store::MeasurementRow> rows;
+  std::vector<MeasurementRow> rows;
   while (!measurements.empty()) {
     const std::size_t count = std::min(measurements.size(), kRowsAtATime);
     rows.clear();
@@ -77,15 +75,15 @@ Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measur
   return first;
 }
 
-std::optional<std::int64_t> row_of(const store::Stores& stores, const RecordName& name) {
+std::optional<std::int64_t> row_of(const Stores& stores, const RecordName& name) {
   if (name.origin == 0) return name.number;
   return stores.measurements.find_forwarded(name.origin, name.number);
 }
 
-Result<std::int64_t> existing_row_of(const store::Stores& stores, const RecordName& name,
+Result<std::int64_t> existing_row_of(const Stores& stores, const RecordName& name,
                                      const Origins& origins) {
   const auto row = row_of(stores, name);
-  if (row && stores.measurements.find(*row, [](const store::MeasurementRow&) {})) return *row;
+  if (row && stores.measurements.find(*row, [](const MeasurementRow&) {})) return *row;
   return unknown_measurement(name, origins);
 }
 
@@ -97,7 +95,7 @@ Error unknown_measurement(const RecordName& name, const Origins& origins) {
 
 Error too_much_work() { return {ErrorCode::StorageBusy, "the storage is busy: try again soon"}; }
 
-void append_note(store::Stores& stores, std::int64_t row, const Origins& origins, Note& note,
+void append_note(Stores& stores, std::int64_t row, const Origins& origins, Note& note,
                  std::int64_t now_ns, const RecordName& there) {
   const std::int64_t id = stores.notes.append({.measurement = row,
                                                .cause = note.cause,
@@ -124,8 +122,8 @@ Note from_store(store::Note&& note, const std::string& measurement, const Origin
           .received_at = {note.received_at_ns}};
 }
 
-std::vector<Note> notes_of(const store::Stores& stores, std::int64_t row,
-                           const std::string& measurement, const Origins& origins) {
+std::vector<Note> notes_of(const Stores& stores, std::int64_t row, const std::string& measurement,
+                           const Origins& origins) {
   std::vector<Note> notes;
   for (store::Note& note : stores.notes.list(row)) {
     notes.push_back(from_store(std::move(note), measurement, origins));

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "db/store/stores.hpp"
-#include "record/measurement.hpp"
 #include "service/log/leaf.hpp"
 
 namespace fitgauge::app {
@@ -21,20 +20,20 @@ std::int64_t number_from(std::int64_t first, std::string_view origin,
                          std::span<Measurement> measurements);
 
 /// Adds a row for each measurement. @pre they have their ids. The rows view their texts.
-void append_rows(std::vector<store::MeasurementRow>& rows,
-                 std::span<const Measurement> measurements, LeafMaker& leaves);
+void append_rows(std::vector<MeasurementRow>& rows, std::span<const Measurement> measurements,
+                 LeafMaker& leaves);
 
 /// Numbers and stores measurements.
 /// @param rendering receives them, if there is one. @returns the id of the first.
 /// @errors MeasurementUnknown and MeasurementCorrected of a correction.
-Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measurements,
+Result<std::int64_t> append(Stores& stores, std::span<Measurement> measurements,
                             std::string_view origin, Rendering* rendering = nullptr);
 
 /// The row of a measurement in this folder; none when there is no such measurement.
-std::optional<std::int64_t> row_of(const store::Stores& stores, const RecordName& name);
+std::optional<std::int64_t> row_of(const Stores& stores, const RecordName& name);
 
 /// Finds a row that must exist. @errors MeasurementUnknown.
-Result<std::int64_t> existing_row_of(const store::Stores& stores, const RecordName& name,
+Result<std::int64_t> existing_row_of(const Stores& stores, const RecordName& name,
                                      const Origins& origins);
 
 Error unknown_measurement(const RecordName& name, const Origins& origins);
@@ -46,14 +45,14 @@ Error too_much_work();
 
 /// Stores a note on a row with a new id, and its event.
 /// @param there name and id of a note that a station has forwarded
-void append_note(store::Stores& stores, std::int64_t row, const Origins& origins, Note& note,
+void append_note(Stores& stores, std::int64_t row, const Origins& origins, Note& note,
                  std::int64_t now_ns, const RecordName& there = {});
 
 /// @param measurement the id of its record
 Note from_store(store::Note&& note, const std::string& measurement, const Origins& origins);
 
 /// The notes of a row, oldest first. @param measurement as from_store() has it
-std::vector<Note> notes_of(const store::Stores& stores, std::int64_t row,
-                           const std::string& measurement, const Origins& origins);
+std::vector<Note> notes_of(const Stores& stores, std::int64_t row, const std::string& measurement,
+                           const Origins& origins);
 
 }  // namespace fitgauge::app

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/json/body_forms.hpp"
-#include "base/result.hpp"
 #include "metrology/statistics/uncertainty.hpp"
 
 namespace fitgauge::api {

@@ -2,9 +2,7 @@
 
 #include <sstream>
 
-#include "base/digest.hpp"
 #include "base/json/json_writer.hpp"
-#include "db/store/tables_store.hpp"
 #include "formats/certificate/certificate.hpp"
 #include "proof/note.hpp"
 #include "service/measurements/mapping.hpp"

@@ -1,11 +1,8 @@
-#include "metrology/gauging/conformance.hpp"
 #include "metrology/gauging/gauge.hpp"
 #include "metrology/statistics/capability.hpp"
 #include "metrology/statistics/gauge_study.hpp"
 #include "metrology/statistics/measuring_process.hpp"
 #include "metrology/statistics/model.hpp"
-#include "metrology/statistics/process_model.hpp"
-#include "metrology/statistics/uncertainty.hpp"
 #include "metrology/statistics/zone_rules.hpp"
 #include "service/qualification/qualification.hpp"
 

@@ -17,7 +17,7 @@ constexpr std::pair<RevisionKind, std::string_view> kKinds[] = {
     {RevisionKind::Setup, "setup"},           {RevisionKind::Plan, "plan"},
     {RevisionKind::Correction, "correction"}, {RevisionKind::Catalogue, "catalogue"}};
 
-void fill_tables(const store::Stores& stores, Revision& revision) {
+void fill_tables(const Stores& stores, Revision& revision) {
   const auto latest = stores.tables.load_latest();
   if (!latest) return;
   revision.id = latest->revision.id;
@@ -25,7 +25,7 @@ void fill_tables(const store::Stores& stores, Revision& revision) {
   if (data) revision.columns = std::move(data->custom_columns);
 }
 
-void fill_key(const store::Stores& stores, Revision& revision) {
+void fill_key(const Stores& stores, Revision& revision) {
   const auto key = stores.keys.newest(revision.name);
   revision.is_removed = !key || key->revoked_at_ns.has_value();
   if (!key) return;
@@ -34,7 +34,7 @@ void fill_key(const store::Stores& stores, Revision& revision) {
   if (key->expires_at_ns) revision.expires_at = Timestamp{*key->expires_at_ns};
 }
 
-void fill_document(const store::Stores& stores, Revision& revision) {
+void fill_document(const Stores& stores, Revision& revision) {
   // A document and its revisions have the same codes.
   auto document =
       stores.documents.find(static_cast<store::DocumentKind>(revision.kind), revision.name);
@@ -56,13 +56,12 @@ std::optional<RevisionKind> revision_kind_from_word(std::string_view text) {
 }
 
 void RevisionFeed::read(std::string_view station, std::string position, Done done) const {
-  database_.readers().submit(
-      [this, station = std::string(station), position = std::move(position)](
-          const store::Stores& stores) { return page(stores, station, position); },
-      std::move(done));
+  database_.readers().submit([this, station = std::string(station), position = std::move(position)](
+                                 const Stores& stores) { return page(stores, station, position); },
+                             std::move(done));
 }
 
-Result<RevisionPage> RevisionFeed::page(const store::Stores& stores, std::string_view station,
+Result<RevisionPage> RevisionFeed::page(const Stores& stores, std::string_view station,
                                         std::string_view position) const {
   const auto origin = stores.origins.find(station);
   const auto listed = stores.revisions.list(stores.revisions.number_of(position).value_or(0),
@@ -90,13 +89,12 @@ Result<RevisionPage> RevisionFeed::page(const store::Stores& stores, std::string
 }
 
 /// @returns false: it has nothing to send.
-bool RevisionFeed::fill(const store::Stores& stores, const std::string& name,
-                        Revision& revision) const {
+bool RevisionFeed::fill(const Stores& stores, const std::string& name, Revision& revision) const {
   if (revision.kind == RevisionKind::Correction) {
     std::int64_t row = 0;
     std::from_chars(name.data(), name.data() + name.size(), row);
     const RowNames names = row_names(tables_, origins_);
-    return stores.measurements.find(row, [&](const store::MeasurementRow& found) {
+    return stores.measurements.find(row, [&](const MeasurementRow& found) {
       append_record(revision.text, from_store(found, names));
       revision.place = found.place_in_log();
     });

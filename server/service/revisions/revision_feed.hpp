@@ -1,8 +1,5 @@
 #pragma once
 
-#include "base/clock.hpp"
-#include "base/digest.hpp"
-#include "base/result.hpp"
 #include "db/store/log_store.hpp"
 #include "record/measurement.hpp"
 #include "service/documents/key_service.hpp"
@@ -55,27 +52,13 @@ struct RevisionPage {
   std::vector<Revision> revisions{};
 };
 
-}  // namespace fitgauge::app
-
-namespace fitgauge::store {
-
-class Database;
-struct Stores;
-
-}  // namespace fitgauge::store
-
-namespace fitgauge::app {
-
-class Origins;
-class TableCatalog;
-
 /// Revisions of this centre for its stations: tables with custom classes, keys of viewers and
 /// operators by their hashes, setups, plans, and corrections of a station's records. Thread-safe.
 class RevisionFeed {
  public:
   using Done = std::function<void(Result<RevisionPage>)>;
 
-  RevisionFeed(store::Database& database, const TableCatalog& tables, const Origins& origins)
+  RevisionFeed(Database& database, const TableCatalog& tables, const Origins& origins)
       : database_(database), tables_(tables), origins_(origins) {}
 
   /// Returns the changes after a position; all changes if this folder did not give the position
@@ -85,11 +68,11 @@ class RevisionFeed {
   void read(std::string_view station, std::string position, Done done) const;
 
  private:
-  Result<RevisionPage> page(const store::Stores& stores, std::string_view station,
+  Result<RevisionPage> page(const Stores& stores, std::string_view station,
                             std::string_view position) const;
-  bool fill(const store::Stores& stores, const std::string& name, Revision& revision) const;
+  bool fill(const Stores& stores, const std::string& name, Revision& revision) const;
 
-  store::Database& database_;
+  Database& database_;
   const TableCatalog& tables_;
   const Origins& origins_;
 };

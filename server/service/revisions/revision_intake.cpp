@@ -1,9 +1,7 @@
 #include "service/revisions/revision_intake.hpp"
 
 #include "db/store/database.hpp"
-#include "proof/frontier.hpp"
 #include "record/origins.hpp"
-#include "service/documents/key_service.hpp"
 #include "service/log/changes.hpp"
 #include "service/log/leaf.hpp"
 #include "service/measurements/mapping.hpp"
@@ -13,7 +11,7 @@ namespace fitgauge::app {
 namespace {
 
 /// Renames a document that this folder has made to a free name.
-std::string keep_own(store::Stores& stores, store::Document own, std::int64_t now_ns) {
+std::string keep_own(Stores& stores, store::Document own, std::int64_t now_ns) {
   const std::string name = own.name;
   own.name = name + " (local)";
   for (int i = 2; stores.documents.find(own.kind, own.name); ++i) {
@@ -28,7 +26,7 @@ std::string keep_own(store::Stores& stores, store::Document own, std::int64_t no
 
 /// A page in its transaction.
 struct RevisionIntake::Job {
-  store::Stores& stores;
+  Stores& stores;
   TableCatalog& tables;
   const Origins& origins;
   const RevisionPage& page;
@@ -155,7 +153,7 @@ struct RevisionIntake::Job {
       return refuse(fmt::format("the centre's correction {}: its measurement is not stored here",
                                 measurement_id_text(m.id, m.origin)));
     }
-    store::MeasurementRow row = to_store(m);
+    MeasurementRow row = to_store(m);
     if (!m.table_revision.empty()) row.table_revision = tables.revision_number(m.table_revision);
     row.id = stores.measurements.last_id() + 1;
     row.origin = centre;
@@ -183,7 +181,7 @@ Result<RevisionIntake::Outcome> RevisionIntake::take(const RevisionPage& page) {
     std::optional<TableCatalog::Received> received;
     std::vector<std::pair<std::string_view, std::string>> told;
   };
-  auto taken = database_.writer().wait([&](store::Stores& stores) -> Result<Taken> {
+  auto taken = TRY(database_.writer().wait([&](Stores& stores) -> Result<Taken> {
     Job job{.stores = stores,
             .tables = tables_,
             .origins = origins_,
@@ -191,11 +189,10 @@ Result<RevisionIntake::Outcome> RevisionIntake::take(const RevisionPage& page) {
             .now = clock_.now().nanoseconds};
     for (const Revision& revision : page.revisions) job.take(revision);
     return Taken{job.outcome, std::move(job.received), std::move(job.told)};
-  });
-  if (!taken) return taken.error();
-  if (taken->received) tables_.put_in_force(*taken->received);
-  for (const auto& [event, detail] : taken->told) tell_once(event, detail);
-  return taken->outcome;
+  }));
+  if (taken.received) tables_.put_in_force(*taken.received);
+  for (const auto& [event, detail] : taken.told) tell_once(event, detail);
+  return taken.outcome;
 }
 
 /// Numbers the centre and the table revisions of its corrections in a commit before the rows, so
@@ -214,7 +211,7 @@ Result<void> RevisionIntake::prepare(const RevisionPage& page) {
   if (centres.empty() && revisions.empty()) return {};
   std::vector<std::pair<std::int64_t, std::string_view>> added;
   std::vector<std::pair<std::int64_t, std::string_view>> numbers;
-  const auto stored = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+  TRY(database_.writer().wait([&](Stores& stores) -> Result<bool> {
     numbers.clear();
     added.clear();
     for (const std::string_view id : revisions) {
@@ -225,8 +222,7 @@ Result<void> RevisionIntake::prepare(const RevisionPage& page) {
       added.emplace_back(found ? found->number : stores.origins.add(digits), digits);
     }
     return true;
-  });
-  if (!stored) return stored.error();
+  }));
   for (const auto& [number, id] : numbers) tables_.remember(number, id);
   for (const auto& [number, digits] : added) origins_.remember(number, digits);
   return {};

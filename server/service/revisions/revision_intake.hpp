@@ -2,15 +2,9 @@
 
 #include "base/result.hpp"
 #include "service/revisions/revision_feed.hpp"
-
-namespace fitgauge::store {
-class Database;
-}
+#include "service/storage.hpp"
 
 namespace fitgauge::app {
-
-class Origins;
-class TableCatalog;
 
 /// Stores revisions of the centre at a station. They replace documents of the same name here;
 /// documents that this folder has made are renamed, and a key of this folder stays. Other documents
@@ -20,8 +14,8 @@ class RevisionIntake {
   /// The event's name and a sentence, for the log of the service.
   using Tell = std::function<void(std::string_view event, const std::string& detail)>;
 
-  RevisionIntake(store::Database& database, TableCatalog& tables, Origins& origins,
-                 const Clock& clock, Tell tell)
+  RevisionIntake(Database& database, TableCatalog& tables, Origins& origins, const Clock& clock,
+                 Tell tell)
       : database_(database),
         tables_(tables),
         origins_(origins),
@@ -42,7 +36,7 @@ class RevisionIntake {
   Result<void> prepare(const RevisionPage& page);
   void tell_once(std::string_view event, const std::string& detail);
 
-  store::Database& database_;
+  Database& database_;
   TableCatalog& tables_;
   Origins& origins_;
   const Clock& clock_;

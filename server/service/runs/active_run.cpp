@@ -122,7 +122,7 @@ void ActiveRun::finished(Result<FinishedRun> end) {
   for (const auto& done : at_end) guarded("a run's end", [&] { done(*end_); });
 }
 
-SharedRuns::SharedRuns(store::Database& database, Own own)
+SharedRuns::SharedRuns(Database& database, Own own)
     : database_(database),
       own_(std::move(own)),
       thread_("shared runs", [this](const std::stop_token& stop) { run(stop); }) {}
@@ -173,7 +173,7 @@ SharedRuns::Followed SharedRuns::followed() {
 }
 
 void SharedRuns::look(const Followed& followed, bool runs_any) {
-  const auto seen = database_.readers().wait([&](const store::Stores& stores) -> Result<Seen> {
+  const auto seen = database_.readers().wait([&](const Stores& stores) -> Result<Seen> {
     Seen found;
     if (runs_any) found.to_be_cancelled = stores.runs.to_be_cancelled();
     for (const auto& [id, run] : followed) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "base/thread.hpp"
 #include "nc/machine/axis.hpp"
 #include "nc/run/run_result.hpp"
@@ -124,14 +123,6 @@ class ActiveRun {
   LiveState live_;
 };
 
-}  // namespace fitgauge::app
-
-namespace fitgauge::store {
-class Database;
-}
-
-namespace fitgauge::app {
-
 /// Messages about runs between daemons with a shared database: cancellations, and states of runs
 /// that are followed at another daemon. Polls four times a second, only while there is such a run.
 /// Thread-safe.
@@ -143,7 +134,7 @@ class SharedRuns {
     std::function<void(std::int64_t id)> cancel;  ///< cancels a run of this daemon
   };
 
-  SharedRuns(store::Database& database, Own own);
+  SharedRuns(Database& database, Own own);
   SharedRuns& operator=(SharedRuns&&) = delete;  // neither copied nor moved
   ~SharedRuns();
 
@@ -162,7 +153,7 @@ class SharedRuns {
   Followed followed();
   void end(const Followed& followed, const Error& error);
 
-  store::Database& database_;
+  Database& database_;
   const Own own_;
   std::mutex mutex_;
   Followed followed_;

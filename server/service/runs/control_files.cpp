@@ -3,7 +3,6 @@
 #include "nc/machine/stl_file.hpp"
 #include "service/tables/table_catalog.hpp"
 #include "tables/tabfile/iso286_projection.hpp"
-#include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::app {
 namespace {

@@ -5,6 +5,14 @@
 namespace fitgauge::app {
 namespace {
 
+constexpr double kMillimetresPerInch = 25.4;
+constexpr int kHighestNumber = 65535;
+constexpr std::array<std::string_view, 2> kFolders = {"TNC:\\table\\", "TNC:\\"};
+
+interpreter::ControlPath path_in(std::string_view folder, std::string_view name) {
+  return interpreter::ControlPath::parse(std::string(folder) += name).value();
+}
+
 /// A table of the control: tool.t, toolturn.trn, tchprobe.tp or preset.pr.
 struct MachineTable {
   std::string path;
@@ -13,15 +21,44 @@ struct MachineTable {
   /// Finds the table of that name in `TNC:\table\`, as on TNC 640 and TNC7, or in `TNC:\`.
   /// @errors TableFileMalformed.
   static Result<std::optional<MachineTable>> find(const interpreter::ControlDisk& disk,
-                                                  std::string_view name, Allowance& allowance);
+                                                  std::string_view name, Allowance& allowance) {
+    for (const std::string_view folder : kFolders) {
+      const auto file = disk.find(path_in(folder, name));
+      if (!file) continue;
+      auto table = tabfile::read_tab_file(*file->bytes, allowance);
+      if (table) return std::optional(MachineTable{file->path.text(), *std::move(table)});
+      return Error{ErrorCode::TableFileMalformed,
+                   fmt::format("{}: {}", file->path.text(), table.error().message),
+                   file->path.text()};
+    }
+    return std::optional<MachineTable>();
+  }
   /// Returns a text that changes whenever the result of `find` would change. Reads no file.
-  static std::string revision(const interpreter::ControlDisk& disk, std::string_view name);
+  static std::string revision(const interpreter::ControlDisk& disk, std::string_view name) {
+    std::string revisions;
+    for (const std::string_view folder : kFolders) {
+      revisions += disk.revision(path_in(folder, name)).value_or("none") + ' ';
+    }
+    return revisions;
+  }
 
   /// The number in the first column of a row; none for an indexed tool (5.1).
   /// @errors TableFileMalformed.
-  Result<std::optional<std::int64_t>> number_of(std::size_t row) const;
+  Result<std::optional<std::int64_t>> number_of(std::size_t row) const {
+    const std::string_view text = table.cell(row, 0);
+    std::int64_t number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [behind, error] = std::from_chars(text.data(), end, number);
+    if (error == std::errc() && number >= 0 && number <= kHighestNumber) {
+      if (behind == end) return std::optional(number);
+      if (*behind == '.') return std::optional<std::int64_t>();
+    }
+    return malformed(fmt::format("row number must be a whole number; got '{}'", text));
+  }
 
-  Error malformed(std::string_view what) const;
+  Error malformed(std::string_view what) const {
+    return {ErrorCode::TableFileMalformed, fmt::format("{}: {}", path, what), path};
+  }
 };
 
 /// One row. A blank cell, or a missing column, does not change its value. After the first error it
@@ -33,114 +70,53 @@ class MachineTableRow {
 
   int number() const { return static_cast<int>(number_); }
   /// Empty if the table has no such column.
-  std::string_view text(std::string_view column) const;
-  void number(std::string_view column, double& value);
-  void length(std::string_view column, double& millimetres);
-  void whole(std::string_view column, int& value);
+  std::string_view text(std::string_view column) const {
+    const auto cell = table_.table.text(number_, column);
+    return cell ? *cell : std::string_view();
+  }
+  void number(std::string_view column, double& value) {
+    if (const auto read = cell(column)) value = *read;
+  }
+  void length(std::string_view column, double& millimetres) {
+    const double unit = table_.table.header().unit == "INCH" ? kMillimetresPerInch : 1;
+    if (const auto read = cell(column)) millimetres = *read * unit;
+  }
+  void whole(std::string_view column, int& value) {
+    const auto read = cell(column);
+    if (!read) return;
+    if (std::trunc(*read) != *read || *read < 0 || *read > kHighestNumber) {
+      return fail(column, "must be a whole number from 0 to 65535");
+    }
+    value = static_cast<int>(*read);
+  }
 
   /// Refuses setups that no machine can have.
-  void check(const machine::Setup& setup);
-  void fail(std::string_view column, std::string_view what);
+  void check(const machine::Setup& setup) {
+    if (error_) return;
+    const auto valid = machine::validate(setup);
+    if (valid) return;
+    const Error error = valid.error();
+    const Error& finding = error.details.front();
+    fail(finding.where.substr(finding.where.rfind('/') + 1), finding.message);
+  }
+  void fail(std::string_view column, std::string_view what) {
+    if (!error_) error_ = table_.malformed(fmt::format("row {}, {}: {}", number_, column, what));
+  }
   const std::optional<Error>& error() const { return error_; }
 
  private:
-  std::optional<double> cell(std::string_view column);
+  std::optional<double> cell(std::string_view column) {
+    if (error_ || text(column).empty()) return std::nullopt;
+    const auto value = table_.table.number(number_, column);
+    if (value) return *value;
+    error_ = table_.malformed(value.error().message);
+    return std::nullopt;
+  }
 
   const MachineTable& table_;
   const std::int64_t number_;
   std::optional<Error> error_;
 };
-
-constexpr double kMillimetresPerInch = 25.4;
-constexpr int kHighestNumber = 65535;
-constexpr std::array<std::string_view, 2> kFolders = {"TNC:\\table\\", "TNC:\\"};
-
-interpreter::ControlPath path_in(std::string_view folder, std::string_view name) {
-  return interpreter::ControlPath::parse(std::string(folder) += name).value();
-}
-
-Error MachineTable::malformed(std::string_view what) const {
-  return {ErrorCode::TableFileMalformed, fmt::format("{}: {}", path, what), path};
-}
-
-Result<std::optional<MachineTable>> MachineTable::find(const interpreter::ControlDisk& disk,
-                                                       std::string_view name,
-                                                       Allowance& allowance) {
-  for (const std::string_view folder : kFolders) {
-    const auto file = disk.find(path_in(folder, name));
-    if (!file) continue;
-    auto table = tabfile::read_tab_file(*file->bytes, allowance);
-    if (table) return std::optional(MachineTable{file->path.text(), *std::move(table)});
-    return Error{ErrorCode::TableFileMalformed,
-                 fmt::format("{}: {}", file->path.text(), table.error().message),
-                 file->path.text()};
-  }
-  return std::optional<MachineTable>();
-}
-
-std::string MachineTable::revision(const interpreter::ControlDisk& disk, std::string_view name) {
-  std::string revisions;
-  for (const std::string_view folder : kFolders) {
-    revisions += disk.revision(path_in(folder, name)).value_or("none") + ' ';
-  }
-  return revisions;
-}
-
-Result<std::optional<std::int64_t>> MachineTable::number_of(std::size_t row) const {
-  const std::string_view text = table.cell(row, 0);
-  std::int64_t number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [behind, error] = std::from_chars(text.data(), end, number);
-  if (error == std::errc() && number >= 0 && number <= kHighestNumber) {
-    if (behind == end) return std::optional(number);
-    if (*behind == '.') return std::optional<std::int64_t>();
-  }
-  return malformed(fmt::format("row number must be a whole number; got '{}'", text));
-}
-
-std::string_view MachineTableRow::text(std::string_view column) const {
-  const auto cell = table_.table.text(number_, column);
-  return cell ? *cell : std::string_view();
-}
-
-std::optional<double> MachineTableRow::cell(std::string_view column) {
-  if (error_ || text(column).empty()) return std::nullopt;
-  const auto value = table_.table.number(number_, column);
-  if (value) return *value;
-  error_ = table_.malformed(value.error().message);
-  return std::nullopt;
-}
-
-void MachineTableRow::number(std::string_view column, double& value) {
-  if (const auto read = cell(column)) value = *read;
-}
-
-void MachineTableRow::length(std::string_view column, double& millimetres) {
-  const double unit = table_.table.header().unit == "INCH" ? kMillimetresPerInch : 1;
-  if (const auto read = cell(column)) millimetres = *read * unit;
-}
-
-void MachineTableRow::whole(std::string_view column, int& value) {
-  const auto read = cell(column);
-  if (!read) return;
-  if (std::trunc(*read) != *read || *read < 0 || *read > kHighestNumber) {
-    return fail(column, "must be a whole number from 0 to 65535");
-  }
-  value = static_cast<int>(*read);
-}
-
-void MachineTableRow::check(const machine::Setup& setup) {
-  if (error_) return;
-  const auto valid = machine::validate(setup);
-  if (valid) return;
-  const Error error = valid.error();
-  const Error& finding = error.details.front();
-  fail(finding.where.substr(finding.where.rfind('/') + 1), finding.message);
-}
-
-void MachineTableRow::fail(std::string_view column, std::string_view what) {
-  if (!error_) error_ = table_.malformed(fmt::format("row {}, {}: {}", number_, column, what));
-}
 
 using machine::Preset;
 using machine::ProbeRow;

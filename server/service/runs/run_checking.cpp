@@ -1,16 +1,10 @@
-#include "base/allowance.hpp"
-#include "base/text.hpp"
 #include "db/store/database.hpp"
 #include "db/store/stores.hpp"
 #include "nc/iso/parser.hpp"
-#include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/mask_file.hpp"
 #include "nc/klartext/printer.hpp"
 #include "nc/program/check.hpp"
-#include "nc/program/control_disk.hpp"
 #include "nc/program/linker.hpp"
-#include "nc/program/program_cache.hpp"
-#include "service/files/file_service.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/runs/run_service.hpp"
 #include "tables/tabfile/tab_table.hpp"
@@ -47,8 +41,7 @@ Result<std::vector<klartext::Diagnostic>> check_file(const interpreter::ControlP
   const std::string_view name = path.file_name();
   const std::string extension = ascii_lower(name.substr(std::min(name.rfind('.'), name.size())));
   const bool is_mask = extension == ".a";
-  const bool is_table = std::find(kTableExtensions.begin(), kTableExtensions.end(), extension) !=
-                        kTableExtensions.end();
+  const bool is_table = std::ranges::find(kTableExtensions, extension) != kTableExtensions.end();
   if (!is_mask && !is_table) return interpreter::check(path, disk, programs, allowance);
   const auto file = disk.find(path);
   if (!file) return Error{ErrorCode::ProgramUnknown, "file not found: " + path.text()};
@@ -136,7 +129,7 @@ Result<void> RunService::load_meshes(machine::Setup& setup, std::string_view poi
 }
 
 Result<std::optional<Answer>> RunService::kept_answer(const IdempotencyScope& scope) {
-  return database_.readers().wait([request = to_store(scope)](const store::Stores& stores) {
+  return database_.readers().wait([request = to_store(scope)](const Stores& stores) {
     return stores.idempotency.find(request);
   });
 }

@@ -1,8 +1,6 @@
 #pragma once
 
-#include "record/measurement.hpp"
 #include "service/runs/active_run.hpp"
-#include "service/runs/stored_run.hpp"
 
 namespace fitgauge::app {
 

@@ -14,7 +14,7 @@ Error stopping() { return {ErrorCode::ShuttingDown, "the service is shutting dow
 
 }  // namespace
 
-RunService::RunService(store::Database& database, const TableCatalog& tables, const Clock& clock,
+RunService::RunService(Database& database, const TableCatalog& tables, const Clock& clock,
                        const Origins& origins, JobPool& orders, RunServiceOptions options)
     : database_(database),
       clock_(clock),
@@ -77,7 +77,7 @@ Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
                        .created_at_ns = clock_.now().nanoseconds,
                        .caller = shared->caller};
   std::shared_ptr<ActiveRun> active;
-  const auto create = [&](store::Stores& stores) -> Result<Answer> {
+  const auto create = [&](Stores& stores) -> Result<Answer> {
     active = std::make_shared<ActiveRun>(stores.runs.create(row), origins_.own(), shared,
                                          Timestamp{row.created_at_ns});
     return accepted(*active);
@@ -114,9 +114,8 @@ void RunService::run(const std::shared_ptr<ActiveRun>& run) {
   }
   active.started();
   // Not waited for: the writer keeps the order of its jobs.
-  database_.writer().submit(
-      [id = active.id()](store::Stores& stores) { return stores.runs.start(id); },
-      [](const Result<void>&) {});
+  database_.writer().submit([id = active.id()](Stores& stores) { return stores.runs.start(id); },
+                            [](const Result<void>&) {});
   end(active, execute_guarded(active));
 }
 

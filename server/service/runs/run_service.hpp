@@ -1,12 +1,10 @@
 #pragma once
 
-#include "base/thread.hpp"
 #include "base/worker_pool.hpp"
 #include "nc/klartext/diagnostic.hpp"
 #include "record/origins.hpp"
 #include "service/files/file_service.hpp"
 #include "service/measurements/measurement_service.hpp"
-#include "service/runs/active_run.hpp"
 #include "service/runs/control_files.hpp"
 #include "service/runs/control_tables.hpp"
 #include "service/runs/run_executor.hpp"
@@ -36,7 +34,7 @@ class RunService {
 
   /// @param origins outlive the service, as the pool does.
   /// @param orders pool for calls of the functions that block
-  RunService(store::Database& database, const TableCatalog& tables, const Clock& clock,
+  RunService(Database& database, const TableCatalog& tables, const Clock& clock,
              const Origins& origins, JobPool& orders, RunServiceOptions options);
   RunService& operator=(RunService&&) = delete;  // neither copied nor moved
   ~RunService();
@@ -175,7 +173,7 @@ class RunService {
   Result<void> take_over(const store::Run& run);
   Result<std::shared_ptr<ActiveRun>> queue(std::shared_ptr<ActiveRun> active);
 
-  store::Database& database_;
+  Database& database_;
   const Clock& clock_;
   const Origins& origins_;
   const RunServiceOptions options_;

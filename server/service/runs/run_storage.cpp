@@ -3,9 +3,7 @@
 #include "base/thread.hpp"
 #include "db/store/database.hpp"
 #include "service/measurements/measurement_storage.hpp"
-#include "service/runs/run_executor.hpp"
 #include "service/runs/run_service.hpp"
-#include "service/runs/stored_run.hpp"
 
 namespace fitgauge::app {
 namespace {
@@ -29,13 +27,12 @@ Error too_late(const std::string& id) {
 
 Result<void> RunService::close_interrupted() {
   while (true) {
-    const auto runs = database_.readers().wait(
-        [](const store::Stores& stores) -> Result<std::vector<store::Run>> {
+    const auto runs =
+        TRY(database_.readers().wait([](const Stores& stores) -> Result<std::vector<store::Run>> {
           return stores.runs.abandoned(kPage);
-        });
-    if (!runs) return runs.error();
-    if (runs->empty()) return {};
-    for (const store::Run& run : *runs) {
+        }));
+    if (runs.empty()) return {};
+    for (const store::Run& run : runs) {
       const auto kept =
           keep_failed(run,
                       "the service stopped before the end of the run was stored: the run has "
@@ -52,8 +49,8 @@ void RunService::look_for_abandoned(const std::stop_token& stop) {
   constexpr std::chrono::seconds kBetween{5};
   std::set<std::int64_t> seen;
   while (wait_unless_stopped(stop, kBetween)) {
-    const auto runs = database_.readers().wait(
-        [](const store::Stores& stores) -> Result<std::vector<store::Run>> {
+    const auto runs =
+        database_.readers().wait([](const Stores& stores) -> Result<std::vector<store::Run>> {
           return stores.runs.abandoned(kPage);
         });
     if (!runs) continue;
@@ -81,10 +78,9 @@ Result<void> RunService::take_over(const store::Run& run) {
       order = loaded.error();
     }
   }
-  const auto taken = database_.writer().wait(
-      [id = run.id](store::Stores& stores) -> Result<bool> { return stores.runs.take_over(id); });
-  if (!taken) return taken.error();
-  if (!*taken) return {};
+  const auto taken = TRY(database_.writer().wait(
+      [id = run.id](Stores& stores) -> Result<bool> { return stores.runs.take_over(id); }));
+  if (!taken) return {};
   if (order) {
     static_cast<void>(queue(std::make_shared<ActiveRun>(
         run.id, origin_of(run.id), std::make_shared<const RunOrder>(*std::move(order)),
@@ -120,15 +116,14 @@ Result<FinishedRun> RunService::keep(const RunReport& report, std::string_view t
     files.push_back({.path = file.path.text(), .content = file.bytes});
   }
   std::vector<Measurement> measurements = measurements_of(report, caller);
-  const auto store = [&](store::Stores& stores) -> Result<bool> {
+  const auto store = [&](Stores& stores) -> Result<bool> {
     const std::int64_t now = report.finished_at.nanoseconds;
-    const auto closed = stores.runs.finish(report.id,
-                                           {.status = run_status(finished.state),
-                                            .result = finished.report,
-                                            .trace = trace,
-                                            .files = files},
-                                           now);
-    if (!closed) return closed.error();
+    TRY(stores.runs.finish(report.id,
+                           {.status = run_status(finished.state),
+                            .result = finished.report,
+                            .trace = trace,
+                            .files = files},
+                           now));
     TRY(append(stores, measurements, origins_.own()));
     stores.events.append(kFinishedEvent, event, now);
     return true;
@@ -180,7 +175,7 @@ void RunService::store_waiting(const std::stop_token& stop) {
 
 void RunService::find(std::int64_t id, Done<StoredRun> done) {
   database_.readers().submit(
-      [this, id](const store::Stores& stores) -> Result<StoredRun> {
+      [this, id](const Stores& stores) -> Result<StoredRun> {
         auto run = stores.runs.find(id);
         if (!run) return unknown_run(run_id_text(id, origin_of(id)));
         return stored_run(*std::move(run), origin_of(id));
@@ -215,7 +210,7 @@ void RunService::cancel(std::int64_t id, Done<void> done) {
     if (!run) return done(run.error());
     if (!run->active) return done(too_late(run->stored.id_text()));
     database_.writer().submit(
-        [id](store::Stores& stores) { return stores.runs.ask_to_cancel(id); },
+        [id](Stores& stores) { return stores.runs.ask_to_cancel(id); },
         [run = std::move(run->active), at_end, done](const Result<void>& asked) {
           // A run that has ended meanwhile reports its status.
           if (!asked && asked.error().code != ErrorCode::RunFinished) return done(asked.error());
@@ -226,7 +221,7 @@ void RunService::cancel(std::int64_t id, Done<void> done) {
 
 void RunService::trace(std::int64_t id, Done<TraceReader> done) {
   database_.readers().submit(
-      [this, id](const store::Stores& stores) -> Result<TraceReader> {
+      [this, id](const Stores& stores) -> Result<TraceReader> {
         if (auto trace = stores.runs.trace(id)) return TraceReader(*std::move(trace));
         if (!stores.runs.find(id)) return unknown_run(run_id_text(id, origin_of(id)));
         return Error{ErrorCode::RunUnfinished,
@@ -238,7 +233,7 @@ void RunService::trace(std::int64_t id, Done<TraceReader> done) {
 
 void RunService::file(std::int64_t id, std::string name, Done<File> done) {
   database_.readers().submit(
-      [this, id, name = std::move(name)](const store::Stores& stores) -> Result<File> {
+      [this, id, name = std::move(name)](const Stores& stores) -> Result<File> {
         const bool is_path = name.find_first_of("/\\") != std::string::npos;
         const auto path = parse_file_path(name);
         const std::string_view last = is_path && path ? path->file_name() : std::string_view(name);
@@ -257,8 +252,7 @@ void RunService::list(RunQuery query, std::optional<std::int64_t> after, std::si
   store::RunFilter filter{.program = std::move(query.program)};
   if (query.state) filter.status = run_status(*query.state);
   database_.readers().submit(
-      [this, filter = std::move(filter), after,
-       limit](const store::Stores& stores) -> Result<Page> {
+      [this, filter = std::move(filter), after, limit](const Stores& stores) -> Result<Page> {
         store::RunsStore::Page found = stores.runs.list(filter, after, limit);
         Page page{.runs = {}, .next = found.next};
         for (store::Run& run : found.runs) {

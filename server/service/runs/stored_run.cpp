@@ -1,6 +1,5 @@
 #include "service/runs/stored_run.hpp"
 
-#include "base/text.hpp"
 #include "db/store/runs_store.hpp"
 
 namespace fitgauge::app {

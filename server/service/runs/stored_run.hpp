@@ -1,13 +1,12 @@
 #pragma once
 
-#include "base/clock.hpp"
 #include "base/gzip.hpp"
-#include "base/result.hpp"
 #include "nc/machine/machine_setup.hpp"
 #include "nc/machine/scripted_machine.hpp"
 #include "nc/machine/tracing_machine.hpp"
 #include "nc/run/interpreter.hpp"
 #include "record/measurement.hpp"
+#include "service/storage.hpp"
 
 namespace fitgauge::app {
 
@@ -116,17 +115,6 @@ struct RunFormat {
   /// The payload of the event run.finished.
   std::function<std::string(const RunReport&)> event;
 };
-
-}  // namespace fitgauge::app
-
-namespace fitgauge::store {
-
-struct Run;
-enum class RunStatus : std::uint8_t;
-
-}  // namespace fitgauge::store
-
-namespace fitgauge::app {
 
 /// A run as the store has it.
 struct StoredRun {

@@ -6,8 +6,7 @@
 
 namespace fitgauge::app {
 
-Readiness readiness(const store::Database& database, const TableCatalog& tables,
-                    const LogService& log) {
+Readiness readiness(const Database& database, const TableCatalog& tables, const LogService& log) {
   Readiness readiness{.findings = tables.state()->findings, .database = "ok"};
   const store::Health health = database.health();
   switch (health.state) {

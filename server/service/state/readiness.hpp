@@ -1,15 +1,9 @@
 #pragma once
 
 #include "base/result.hpp"
-
-namespace fitgauge::store {
-class Database;
-}
+#include "service/storage.hpp"
 
 namespace fitgauge::app {
-
-class LogService;
-class TableCatalog;
 
 /// Whether the service may be used, and the activity of the database.
 struct Readiness {
@@ -17,8 +11,7 @@ struct Readiness {
   std::string database;         ///< `ok`, or `checking` while a large file is still being read
 };
 
-Readiness readiness(const store::Database& database, const TableCatalog& tables,
-                    const LogService& log);
+Readiness readiness(const Database& database, const TableCatalog& tables, const LogService& log);
 
 /// Whether a daemon could start on the database at `address` (`postgresql://…`); changes nothing.
 /// @errors StorageUnavailable, DatabaseNewer, DatabaseForeign, each naming the server's reason.

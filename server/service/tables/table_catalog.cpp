@@ -7,7 +7,6 @@
 #include "service/measurements/mapping.hpp"
 #include "service/revisions/revision_feed.hpp"
 #include "service/tables/custom_column.hpp"
-#include "tables/iso286/table_data.hpp"
 #include "tables/standards/standard.hpp"
 
 namespace fitgauge::app {
@@ -59,7 +58,7 @@ Error unknown_revision(std::string_view id) {
   return {ErrorCode::RevisionUnknown, fmt::format("table revision not found: '{}'", id)};
 }
 
-Result<store::LoadedTables> load_or_import(store::Stores& stores, Timestamp now) {
+Result<store::LoadedTables> load_or_import(Stores& stores, Timestamp now) {
   if (auto latest = stores.tables.load_latest()) return *std::move(latest);
   const store::TableImport standard{.content = to_store(iso286::compiled_in_tables()),
                                     .source = std::string(kStandardSource),
@@ -77,7 +76,7 @@ std::string change_text(const TableCatalog::ColumnName& column, std::string_view
 
 auto find_column(std::vector<iso286::CustomColumn>& columns, iso286::Feature feature,
                  std::string_view name) {
-  return std::find_if(columns.begin(), columns.end(), [&](const iso286::CustomColumn& column) {
+  return std::ranges::find_if(columns, [&](const iso286::CustomColumn& column) {
     return column.feature == feature && column.name == name;
   });
 }
@@ -93,24 +92,21 @@ std::optional<std::string> column_text(std::vector<iso286::CustomColumn>& column
 
 }  // namespace
 
-Result<std::unique_ptr<TableCatalog>> TableCatalog::open(store::Database& database,
-                                                         const Clock& clock, bool has_centre) {
+Result<std::unique_ptr<TableCatalog>> TableCatalog::open(Database& database, const Clock& clock,
+                                                         bool has_centre) {
   std::unique_ptr<TableCatalog> catalog(new TableCatalog(database, clock, has_centre));
-  const auto loaded = database.writer().wait(
-      [&clock](store::Stores& stores) { return load_or_import(stores, clock.now()); });
-  if (!loaded) return loaded.error();
-  const auto revisions =
-      database.readers().wait([&catalog](const store::Stores& stores) -> Result<bool> {
-        for (const auto& revision : stores.tables.list()) {
-          catalog->remember(revision.number, revision.id);
-        }
-        for (const auto& revision : stores.origins.revisions()) {
-          catalog->remember(-revision.number, revision.id);
-        }
-        return true;
-      });
-  if (!revisions) return revisions.error();
-  catalog->state_.set(std::make_shared<const TableState>(audit(*loaded)));
+  const auto loaded = TRY(database.writer().wait(
+      [&clock](Stores& stores) { return load_or_import(stores, clock.now()); }));
+  TRY(database.readers().wait([&catalog](const Stores& stores) -> Result<bool> {
+    for (const auto& revision : stores.tables.list()) {
+      catalog->remember(revision.number, revision.id);
+    }
+    for (const auto& revision : stores.origins.revisions()) {
+      catalog->remember(-revision.number, revision.id);
+    }
+    return true;
+  }));
+  catalog->state_.set(std::make_shared<const TableState>(audit(loaded)));
   return catalog;
 }
 
@@ -126,7 +122,7 @@ void TableCatalog::at_revision(std::string revision, Callback<Tables> done) {
     return done(current->tables);
   }
   database_.readers().submit(
-      [revision = std::move(revision)](const store::Stores& stores) -> Result<Tables> {
+      [revision = std::move(revision)](const Stores& stores) -> Result<Tables> {
         const auto loaded = stores.tables.load(std::string_view(revision));
         if (!loaded) return unknown_revision(revision);
         TableState state = audit(*loaded);
@@ -185,7 +181,7 @@ void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
   };
   database_.writer().submit(
       [this, column = std::move(column), edit = std::move(edit), condition = std::move(condition),
-       caller = std::move(caller)](store::Stores& stores) -> Result<Changed> {
+       caller = std::move(caller)](Stores& stores) -> Result<Changed> {
         if (has_centre_ && stores.revisions.received(store::RevisionKind::Tables, "")) {
           return centre_decides("the tables with their custom tolerance classes");
         }
@@ -203,12 +199,11 @@ void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
         if (after == before && !holds) return changed;
         if (after == before) return Changed{false, latest.revision, state_.get()};
         const std::int64_t now = clock_.now().nanoseconds;
-        const auto imported = stores.tables.import({.content = to_store(data),
-                                                    .source = "custom column",
-                                                    .parent = latest.revision.number,
-                                                    .caller = caller},
-                                                   now);
-        if (!imported) return imported.error();
+        TRY(stores.tables.import({.content = to_store(data),
+                                  .source = "custom column",
+                                  .parent = latest.revision.number,
+                                  .caller = caller},
+                                 now));
         log_change(stores, {.at_ns = now,
                             .caller = caller,
                             .kind = "tables",
@@ -245,7 +240,7 @@ void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
 }
 
 Result<TableCatalog::Received> TableCatalog::receive(
-    store::Stores& stores, const std::string& id, const std::vector<iso286::CustomColumn>& columns,
+    Stores& stores, const std::string& id, const std::vector<iso286::CustomColumn>& columns,
     std::int64_t now_ns) {
   const auto latest = stores.tables.load_latest().value();
   const store::TableRevision& before = latest.revision;
@@ -297,7 +292,7 @@ void TableCatalog::put_in_force(std::shared_ptr<const TableState> state) {
   state_.set(std::move(state));
 }
 
-void TableCatalog::take(const store::Stores& stores) {
+void TableCatalog::take(const Stores& stores) {
   std::int64_t newest = 0;
   for (const auto& revision : stores.tables.list()) {
     remember(revision.number, revision.id);
@@ -327,12 +322,10 @@ Result<void> TableCatalog::number_standards() {
     }
   }
   if (unknown.empty()) return {};
-  const auto stored = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+  return database_.writer().wait([&](Stores& stores) -> Result<void> {
     for (const std::string_view id : unknown) remember(-stores.origins.add_revision(id), id);
-    return true;
+    return {};
   });
-  if (!stored) return stored.error();
-  return {};
 }
 
 std::optional<std::int64_t> TableCatalog::revision_number(std::string_view id) const {

@@ -2,14 +2,9 @@
 
 #include "base/clock.hpp"
 #include "base/digest.hpp"
-#include "base/result.hpp"
 #include "base/thread.hpp"
+#include "service/storage.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
-
-namespace fitgauge::store {
-class Database;
-struct Stores;
-}  // namespace fitgauge::store
 
 namespace fitgauge::app {
 
@@ -33,7 +28,7 @@ class TableCatalog {
   /// fail their audit are not an error here: see state().
   /// @param has_centre whether tables of a centre can only be changed there.
   /// @errors StorageUnavailable, StorageCorrupt.
-  static Result<std::unique_ptr<TableCatalog>> open(store::Database& database, const Clock& clock,
+  static Result<std::unique_ptr<TableCatalog>> open(Database& database, const Clock& clock,
                                                     bool has_centre = false);
 
   std::shared_ptr<const TableState> state() const { return state_.get(); }
@@ -78,13 +73,13 @@ class TableCatalog {
   /// Stores the tables of a centre under its id. Used inside a write job, whose transaction
   /// continues.
   /// @errors TablesInconsistent: the standard's tables differ there, or the columns break a rule.
-  Result<Received> receive(store::Stores& stores, const std::string& id,
+  Result<Received> receive(Stores& stores, const std::string& id,
                            const std::vector<iso286::CustomColumn>& columns, std::int64_t now_ns);
   /// Shows them to every reader. @pre they are committed
   void put_in_force(const Received& received);
 
   /// Loads revisions that other daemons have stored; the newest becomes current. Used inside a job.
-  void take(const store::Stores& stores);
+  void take(const Stores& stores);
 
   /// The id of a revision by its number, for reading stored rows; valid as long as the catalog.
   /// Empty for a number that was never given.
@@ -104,7 +99,7 @@ class TableCatalog {
                      std::optional<std::string> caller, Callback<ColumnStored> done);
 
  private:
-  TableCatalog(store::Database& database, const Clock& clock, bool has_centre)
+  TableCatalog(Database& database, const Clock& clock, bool has_centre)
       : database_(database), clock_(clock), has_centre_(has_centre) {}
 
   void put_in_force(std::shared_ptr<const TableState> state);
@@ -113,7 +108,7 @@ class TableCatalog {
   void change(ColumnName column, Edit edit, Condition condition, std::optional<std::string> caller,
               Callback<ColumnStored> done);
 
-  store::Database& database_;
+  Database& database_;
   const Clock& clock_;
   const bool has_centre_;
   Snapshot<TableState> state_;

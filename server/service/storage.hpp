@@ -1,0 +1,28 @@
+#pragma once
+
+// Names of the storage and of its readers, for declarations.
+
+namespace fitgauge::store {
+
+class Database;
+class DirectoryLock;
+class KeyRing;
+struct MeasurementRow;
+struct Run;
+enum class RunStatus : std::uint8_t;
+struct Stores;
+struct VerifyReport;
+
+}  // namespace fitgauge::store
+
+namespace fitgauge::app {
+
+using store::Database;
+using store::MeasurementRow;
+using store::Stores;
+
+class LogService;
+class Origins;
+class TableCatalog;
+
+}  // namespace fitgauge::app
