@@ -31,12 +31,6 @@ inline Result<Response> json_response(Result<std::string> body) {
   return Response(200, "application/json", *std::move(body));
 }
 
-/// Error for a GET whose If-Match names a state other than the current one.
-inline Error other_state() {
-  return {ErrorCode::PreconditionFailed,
-          "the current state does not match If-Match: read it again without If-Match"};
-}
-
 /// Bytes that came from outside, so that a browser does not run them.
 inline Response foreign_bytes(std::string content_type, std::string bytes) {
   return Response(200, std::move(content_type), std::move(bytes))

@@ -42,6 +42,13 @@ inline Parameter query(std::string name, http::ParameterType type, std::string d
   return {.name = std::move(name), .type = std::move(type), .description = std::move(description)};
 }
 
+/// Two lists of parameters as one.
+inline std::vector<Parameter> operator+(std::vector<Parameter> left,
+                                        const std::vector<Parameter>& right) {
+  left.insert(left.end(), right.begin(), right.end());
+  return left;
+}
+
 /// A body that must be JSON. @param schema its name
 inline http::BodyRules json_body(std::string schema) {
   return {.use = http::BodyUse::Required,

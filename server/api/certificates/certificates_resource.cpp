@@ -103,15 +103,14 @@ void make_certificate(const Services& services, const Request& request, Responde
 }
 
 std::vector<Parameter> parameters() {
-  std::vector<Parameter> all = measurement_filter_parameters();
-  const std::vector<Parameter> others = {
-      query("title", http::Text{200}, "First line of the report (default: Inspection report)"),
-      query("company", http::Text{200}, "Company that issues the report"),
-      query("customer", http::Text{200}, "Customer on the report"),
-      query("paper", http::Words{{"a4", "letter"}}, "Size of the sheets (default: a4)"),
-  };
-  all.insert(all.end(), others.begin(), others.end());
-  return all;
+  return measurement_filter_parameters() +
+         std::vector<Parameter>{
+             query("title", http::Text{200},
+                   "First line of the report (default: Inspection report)"),
+             query("company", http::Text{200}, "Company that issues the report"),
+             query("customer", http::Text{200}, "Customer on the report"),
+             query("paper", http::Words{{"a4", "letter"}}, "Size of the sheets (default: a4)"),
+         };
 }
 
 }  // namespace

@@ -62,15 +62,10 @@ void get_file(const Services& services, const Request& request, Responder respon
   if (!path) return responder.fail(path.error());
   services.files.read(
       *std::move(path),
-      answer_with(
-          std::move(responder),
-          [if_match = preconditions_of(request).if_match](app::DiskFile file) -> Result<Response> {
-            const std::string tag = etag_of_text(file.bytes);
-            if (!Preconditions{.if_match = if_match}.hold(tag)) return other_state();
-            Response response = foreign_bytes("application/octet-stream", std::move(file.bytes));
-            response.etag = tag;
-            return response;
-          }));
+      answer_with(std::move(responder), [if_match = preconditions_of(request).if_match](
+                                            app::DiskFile file) {
+        return with_tag(foreign_bytes("application/octet-stream", std::move(file.bytes)), if_match);
+      }));
 }
 
 void delete_file(const Services& services, const Request& request, Responder responder) {
@@ -102,7 +97,7 @@ void members(auto& v, const FilesAnswer& answer) {
 
 void list_files(const Services& services, const Request& request, Responder responder) {
   std::string prefix(request.text("prefix").value_or(""));
-  std::replace(prefix.begin(), prefix.end(), '/', '\\');
+  std::ranges::replace(prefix, '/', '\\');
   if (!ascii_iequals(prefix.substr(0, app::kDrive.size()), app::kDrive))
     prefix.insert(0, app::kDrive);
   services.files.list(std::move(prefix),

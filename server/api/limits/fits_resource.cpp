@@ -2,16 +2,13 @@
 #include "api/limits/limits_codec.hpp"
 #include "api/measurements/measurement_listing.hpp"
 #include "api/resources.hpp"
-#include "api/services.hpp"
 #include "api/statistics/value_selection.hpp"
 #include "api/wire/formulas.hpp"
-#include "base/json/json_writer.hpp"
 #include "base/text.hpp"
 #include "metrology/statistics/fit_analysis.hpp"
 #include "service/jobs.hpp"
 #include "service/tables/table_catalog.hpp"
 #include "tables/iso286/tolerance_class.hpp"
-#include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -22,14 +19,13 @@ constexpr std::string_view kShaft = "shaft";
 /// The values of one side of a fit, with their figures.
 struct MeasuredSide {
   SelectedValues selected{};
-  std::string as_of{};
   metrology::Capability capability{};
 
   metrology::MeasuredSizes sizes() const { return {capability.mean, capability.overall}; }
 };
 
 void members(auto& v, const MeasuredSide& side) {
-  v.member("selection", selection_of(side.selected, side.as_of), "Measurements of the figure");
+  v.member("selection", side.selected, "Measurements of the figure");
   v.member("mean", side.capability.mean, Finite{}, "Value in mm");
   v.member("standard_deviation_overall", side.capability.overall, Finite{}, "Value in mm");
   v.member("stable", side.capability.stable, "true if no rule is broken");
@@ -78,7 +74,7 @@ Result<app::MeasurementQuery> side_query(const Services& services, const Request
 Result<MeasuredSide> read_side(const Services& services, const app::MeasurementQuery& query,
                                const iso286::LimitsOfSize& limits, bool ignores_subgroups) {
   ValueSelection selection;
-  auto as_of = TRY(selection.read(services.measurements, query));
+  TRY(selection.read(services.measurements, query));
   auto selected = TRY(std::move(selection).selected(ignores_subgroups));
   if (selected.lower_limit != limits.lower_limit() ||
       selected.upper_limit != limits.upper_limit()) {
@@ -93,7 +89,7 @@ Result<MeasuredSide> read_side(const Services& services, const app::MeasurementQ
   constexpr long double kConfidence = 0.95L;
   auto capability = TRY(metrology::assess_capability(selected.data, selected.limits, kConfidence));
   selected.data = {};
-  return MeasuredSide{std::move(selected), std::move(as_of), std::move(capability)};
+  return MeasuredSide{std::move(selected), std::move(capability)};
 }
 
 /// Filters of the stored values of a fit: the filters of a list twice, `hole_…` and `shaft_…`.
@@ -282,10 +278,7 @@ http::AsyncHandler answer_fit(const Routes& add, Designation designation_of) {
 
 /// Adds the parameters that select stored values to those of a path.
 std::vector<Parameter> with_filters(std::vector<Parameter> parameters) {
-  const auto filters = fit_filter_parameters();
-  parameters.insert(parameters.end(), filters.begin(), filters.end());
-  parameters.push_back(revision_parameter());
-  return parameters;
+  return std::move(parameters) + fit_filter_parameters() + std::vector{revision_parameter()};
 }
 
 /// Writes the fit as its own path returns it, with the names of its classes.

@@ -75,7 +75,7 @@ std::string etag_of(const iso286::ToleranceTables& tables) {
 
 std::string etag_of(const standards::Standard& standard) {
   std::string tag = '"' + standard.revision + '"';
-  std::replace(tag.begin(), tag.end(), ' ', '-');  // a tag has no blank
+  std::ranges::replace(tag, ' ', '-');  // a tag has no blank
   return tag;
 }
 

@@ -145,11 +145,9 @@ void add_standards_routes(Routes& add) {
        .description = "Deviations in µm, nominal sizes in mm, angles in minutes; what the standard "
                       "has no number for is absent.",
        .parameters = {path_parameter("name", "iso2768-1, iso965-1, din6885-1 or iso492"),
-                      {.name = "size_mm",
-                       .type = http::LengthIn{},
-                       .description =
-                           "Only rows that hold for this size: of a keyway the diameter of "
-                           "its shaft"},
+                      query("size_mm", http::LengthIn{},
+                            "Only rows that hold for this size: of a keyway the diameter of "
+                            "its shaft"),
                       query("table", "Only this table")},
        .outcomes = {{.meaning = "Rows of the table", .schema = "Standard"}},
        .refusals = {404}});

@@ -43,7 +43,7 @@ std::vector<Unused> unused_of(const Request& request, Kind rule) {
 }
 
 bool has(const std::vector<Unused>& unused, std::string_view name) {
-  return std::any_of(unused.begin(), unused.end(), [&](auto& each) { return each.name == name; });
+  return std::ranges::any_of(unused, [&](auto& each) { return each.name == name; });
 }
 
 /// @errors QueryInvalid
@@ -212,10 +212,8 @@ void add_verdicts_routes(Routes& add) {
                   "Decision rule (ISO 14253-1) (default: simple)"),
             query("uncertainty_um", http::LengthIn{.unit = http::LengthUnit::Micrometre},
                   "u; required by guard_band and conformance"),
-            {.name = "coverage_factor",
-             .type = http::Decimal{.scale = 6, .min = 1, .max = 100'000'000},
-             .description =
-                 "k of guard_band (default: t(0.9545, degrees_of_freedom), 2 without them)"},
+            query("coverage_factor", http::Decimal{.scale = 6, .min = 1, .max = 100'000'000},
+                  "k of guard_band (default: t(0.9545, degrees_of_freedom), 2 without them)"),
             query("degrees_of_freedom",
                   http::Decimal{.scale = 6,
                                 .min = app::kDegreesOfFreedom.least,

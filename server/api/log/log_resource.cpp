@@ -178,10 +178,8 @@ void add_changes_routes(Routes& add) {
             query("name", "Changes of this name"),
             query("from", http::Time{}, "Changes from this time on"),
             query("to", http::Time{}, "Changes before this time"),
-            {.name = "limit",
-             .type = http::Integer{1, 1000},
-             .description =
-                 "Maximum number of changes of a page, fewer if they are long (default: 100)"},
+            query("limit", http::Integer{1, 1000},
+                  "Maximum number of changes of a page, fewer if they are long (default: 100)"),
             query("after", "`next` or `last` of an earlier page, or an id")},
        .outcomes = {{.meaning = "A page, oldest first", .schema = "Changes"}}});
 }

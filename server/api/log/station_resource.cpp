@@ -114,9 +114,8 @@ void add_revisions_routes(Routes& add) {
            "setups, plans, catalogues, and corrections of the station's records that were made "
            "here: the last revision of each, sorted by number. A station asks every few seconds "
            "with its last `position`; an unknown position returns everything.",
-       .parameters = {{.name = "station",
-                       .description =
-                           "Ending of the station's ids; its corrections are in the response"},
+       .parameters = {query("station",
+                            "Ending of the station's ids; its corrections are in the response"),
                       query("after", "`position` of the last response")},
        .outcomes = {{.meaning = "Changed documents", .schema = "Revisions"}},
        .refusals = {403}});

@@ -47,8 +47,8 @@ void offer(MeasurementRowReader& reader, std::string_view name,
 }
 
 bool names_any(const JsonValue& body, std::span<const std::string_view> fields) {
-  return std::any_of(fields.begin(), fields.end(),
-                     [&](std::string_view field) { return body.find(field) != nullptr; });
+  return std::ranges::any_of(fields,
+                             [&](std::string_view field) { return body.find(field) != nullptr; });
 }
 
 /// The correction states that the value is not a hole or shaft.

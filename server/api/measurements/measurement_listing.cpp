@@ -31,7 +31,7 @@ bool is_file(Form form) { return form == Form::Dfq || form == Form::Qif || form 
 
 Form form_of(const Request& request) {
   const auto format = request.text("format");
-  const auto found = std::find_if(kForms.begin(), kForms.end(), [&](const auto& form) {
+  const auto found = std::ranges::find_if(kForms, [&](const auto& form) {
     return format ? form.first == *format : form.second == request.response_type();
   });
   return found == kForms.end() ? Form::Json : static_cast<Form>(found - kForms.begin());
@@ -175,30 +175,29 @@ std::vector<Parameter> measurement_filter_parameters(std::string_view prefix) {
   for (const std::string_view name : app::kTextFilters) {
     parameters.push_back(query(std::string(name), fmt::format("Exactly this {}", name)));
   }
-  const std::vector<Parameter> others = {
-      query("designation", "`25 H7`, `M10-6H`, `25 ISO 2768-m`"),
-      query("run_id", "Values of this run, of every source if `source` is absent"),
-      query("verdict", http::Words{{"good", "rework", "reject", "indeterminate", "unjudged"}},
-            "Only this verdict"),
-      query("source", http::Words{{"gauge", "simulation", "all"}},
-            "Source of the measurements (default: gauge)"),
-      query("from", http::Time{}, "measured_at from this time on"),
-      query("to", http::Time{}, "measured_at before this time"),
-      query("received_from", http::Time{}, "received_at from this time on"),
-      query("received_to", http::Time{}, "received_at before this time"),
-      query("cause", "Values with a note of exactly this cause"),
-      query("notes_from", http::Time{}, "Values with a note received from this time on"),
-      query("notes_to", http::Time{}, "Values with a note received before this time"),
-      query("confirmed", http::Words{{"true", "false"}},
-            "false leaves out values that a person confirmed although they are far "
-            "outside; true shows only these values"),
-      {.name = "set_aside",
-       .type = http::Words{{"true", "false"}},
-       .description =
-           "false leaves out values that a note sets aside; true shows only these values"},
-      query("history", http::Words{{"current", "all"}}, "all shows corrected rows too"),
-  };
-  parameters.insert(parameters.end(), others.begin(), others.end());
+  parameters =
+      std::move(parameters) +
+      std::vector<Parameter>{
+          query("designation", "`25 H7`, `M10-6H`, `25 ISO 2768-m`"),
+          query("run_id", "Values of this run, of every source if `source` is absent"),
+          query("verdict", http::Words{{"good", "rework", "reject", "indeterminate", "unjudged"}},
+                "Only this verdict"),
+          query("source", http::Words{{"gauge", "simulation", "all"}},
+                "Source of the measurements (default: gauge)"),
+          query("from", http::Time{}, "measured_at from this time on"),
+          query("to", http::Time{}, "measured_at before this time"),
+          query("received_from", http::Time{}, "received_at from this time on"),
+          query("received_to", http::Time{}, "received_at before this time"),
+          query("cause", "Values with a note of exactly this cause"),
+          query("notes_from", http::Time{}, "Values with a note received from this time on"),
+          query("notes_to", http::Time{}, "Values with a note received before this time"),
+          query("confirmed", http::Words{{"true", "false"}},
+                "false leaves out values that a person confirmed although they are far "
+                "outside; true shows only these values"),
+          query("set_aside", http::Words{{"true", "false"}},
+                "false leaves out values that a note sets aside; true shows only these values"),
+          query("history", http::Words{{"current", "all"}}, "all shows corrected rows too"),
+      };
   for (Parameter& parameter : parameters) parameter.name.insert(0, prefix);
   return parameters;
 }

@@ -43,22 +43,21 @@ std::vector<Parameter> posting_parameters(std::vector<Parameter> parameters = {}
 }
 
 std::vector<Parameter> list_parameters() {
-  auto parameters = measurement_filter_parameters();
-  parameters.push_back(query("limit", http::Integer{.min = 1, .max = 1000},
-                             "Maximum number of rows of a page (default: 100)"));
-  parameters.push_back(query("after", "The cursor `next` of the page before"));
-  parameters.push_back(query("sort", http::Words{{"oldest", "newest"}},
-                             "Order by the time of storing (default: oldest first)"));
-  parameters.push_back(query("notes", http::Words{{"shown", "only"}},
-                             "shown adds `notes` to the records in JSON and NDJSON; only "
-                             "lists only records with notes"));
-  parameters.push_back(query("last", http::Integer{.min = 1, .max = 1000},
-                             "Only this number of the newest; not with `limit` or `after`"));
-  parameters.push_back(query("format", http::Words{{"json", "csv", "ndjson", "dfq", "qif", "xlsx"}},
-                             "Format; replaces Accept"));
-  const auto others = download_parameters();
-  parameters.insert(parameters.end(), others.begin(), others.end());
-  return parameters;
+  const std::vector<Parameter> of_list = {
+      query("limit", http::Integer{.min = 1, .max = 1000},
+            "Maximum number of rows of a page (default: 100)"),
+      query("after", "The cursor `next` of the page before"),
+      query("sort", http::Words{{"oldest", "newest"}},
+            "Order by the time of storing (default: oldest first)"),
+      query("notes", http::Words{{"shown", "only"}},
+            "shown adds `notes` to the records in JSON and NDJSON; only "
+            "lists only records with notes"),
+      query("last", http::Integer{.min = 1, .max = 1000},
+            "Only this number of the newest; not with `limit` or `after`"),
+      query("format", http::Words{{"json", "csv", "ndjson", "dfq", "qif", "xlsx"}},
+            "Format; replaces Accept"),
+  };
+  return measurement_filter_parameters() + of_list + download_parameters();
 }
 
 std::vector<Parameter> summary_parameters() {

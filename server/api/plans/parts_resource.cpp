@@ -193,10 +193,8 @@ void read_part(const Services& services, std::string_view id, std::optional<std:
 
 void get_part(const Services& services, const Request& request, Responder responder) {
   read_part(services, *request.text("part"), request.text("plan"),
-            [shared = share(std::move(responder))](const Result<Part>& part) {
-              if (!part) return shared->fail(part.error());
-              shared->answer({200, "application/json", body_json(*part)});
-            });
+            answer_with(std::move(responder),
+                        [](const Part& part) { return json_response(body_json(part)); }));
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ struct Parameters {
       }
       interpreter::ParameterValue given{*parameter, *std::move(read)};
       const auto is_same = [&](const auto& other) { return other.parameter == *parameter; };
-      if (std::any_of(to.begin(), to.end(), is_same)) {
+      if (std::ranges::any_of(to, is_same)) {
         errors.add(ErrorCode::FieldConflict, pointer,
                    fmt::format("{} is given twice: keep one", interpreter::name(*parameter)));
       } else if (const auto valid = interpreter::validate(given); !valid) {
@@ -107,7 +107,7 @@ struct ParameterNames {
       const JsonValue& item = names->items[i];
       const auto parameter = interpreter::parse_parameter_name(item.text);
       if (item.is(Kind::String) && parameter) {
-        if (std::find(to.begin(), to.end(), *parameter) == to.end()) to.push_back(*parameter);
+        if (std::ranges::find(to, *parameter) == to.end()) to.push_back(*parameter);
       } else {
         fields.errors().add(item.is(Kind::String) ? parameter.error().code : ErrorCode::FieldType,
                             pointer_to(fields.at(of), i),
@@ -225,8 +225,8 @@ void members(auto& v, RunOrderBody& order) {
 
 /// The setup as JSON: the member itself, or the named one, which then replaces the name.
 Result<void> put_setup_in_place(JsonValue& body, const FindSetup& find_setup, FieldErrors& errors) {
-  const auto member = std::find_if(body.members.begin(), body.members.end(),
-                                   [](const auto& entry) { return entry.first == "setup"; });
+  const auto member =
+      std::ranges::find_if(body.members, [](const auto& entry) { return entry.first == "setup"; });
   if (member == body.members.end() || !member->second.is(Kind::String)) return {};
   const auto found = find_setup(member->second.text);
   if (found) {

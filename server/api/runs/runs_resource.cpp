@@ -1,4 +1,3 @@
-#include "api/resources.hpp"
 
 #include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
@@ -169,9 +168,8 @@ void add_reading_routes(Routes& add) {
                             http::Words{{"queued", "running", "completed", "stopped", "failed",
                                          "limit_exceeded", "cancelled"}},
                             "Only this status"),
-                      {.name = "program",
-                       .description =
-                           "Only this program: TNC:\\nc_prog\\8255.h, or nc_prog/8255.h"},
+                      query("program",
+                            "Only this program: TNC:\\nc_prog\\8255.h, or nc_prog/8255.h"),
                       query("limit", http::Integer{.min = 1, .max = 1000},
                             "Maximum number of runs of a page (default: 100)"),
                       query("after", "The cursor `next` of the page before")},

@@ -121,8 +121,8 @@ std::vector<TraceCsv::Column> TraceCsv::columns_of(const JsonValue& move) {
   std::vector<Column> columns;
   for (const auto& [name, value] : move.members) {
     const std::string_view member = name;
-    if (std::any_of(std::begin(kOptional), std::end(kOptional),
-                    [&](const auto& optional) { return optional.first == member; })) {
+    if (std::ranges::any_of(kOptional,
+                            [&](const auto& optional) { return optional.first == member; })) {
       continue;
     }
     if (value.is(JsonValue::Kind::Object)) {

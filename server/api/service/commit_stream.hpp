@@ -13,16 +13,62 @@ class CommitStream : public http::BodyStream,
  public:
   explicit CommitStream(app::EventService& events) : events_(events) {}
 
-  void next(http::ChunkSink sink) final;
-  void cancelled() final;
-  void committed() final;
+  void next(http::ChunkSink sink) final {
+    if (!std::exchange(begun_, true)) events_.add(shared_from_this());
+    {
+      const std::lock_guard lock(mutex_);
+      sink_ = std::move(sink);
+      reading_ = std::exchange(missed_, false);
+      if (!reading_) return;
+    }
+    read();
+  }
+  void cancelled() final {
+    events_.remove(shared_from_this());
+    const std::lock_guard lock(mutex_);
+    sink_.reset();
+  }
+  void committed() final {
+    {
+      const std::lock_guard lock(mutex_);
+      if (reading_ || !sink_) {
+        missed_ = true;
+        return;
+      }
+      reading_ = true;
+    }
+    read();
+  }
 
  protected:
   /// Reads once, and ends with took() or fail() on any thread.
   virtual void read() = 0;
   /// @param piece empty: nothing is sent yet. @param more than was read is there already
-  void took(std::string piece, bool more = false);
-  void fail();
+  void took(std::string piece, bool more = false) {
+    std::optional<http::ChunkSink> sink;
+    {
+      const std::lock_guard lock(mutex_);
+      missed_ = missed_ || more;
+      reading_ = piece.empty() && missed_ && sink_;
+      if (reading_) missed_ = false;
+      if (!piece.empty()) sink = std::exchange(sink_, std::nullopt);
+      if (!reading_ && !sink) return;
+    }
+    if (sink) {
+      sink->put(std::move(piece));
+    } else {
+      read();
+    }
+  }
+  void fail() {
+    std::optional<http::ChunkSink> sink;
+    {
+      const std::lock_guard lock(mutex_);
+      sink = std::exchange(sink_, std::nullopt);
+      reading_ = false;
+    }
+    if (sink) sink->fail();
+  }
 
   app::EventService& events_;
 

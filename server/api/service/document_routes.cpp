@@ -33,7 +33,7 @@ std::string names_allowed(const KindOfDocument& kind) {
 /// Allowed names, which fit in a path and in a message.
 Result<std::string> name_to_write(const KindOfDocument& kind, const Request& request) {
   std::string name = name_in_path(kind, request);
-  const bool printable = std::none_of(name.begin(), name.end(), [&](char c) {
+  const bool printable = std::ranges::none_of(name, [&](char c) {
     return static_cast<unsigned char>(c) < ' ' || c == '\x7f' ||
            (!kind.names_with_slashes && (c == '/' || c == '\\'));
   });
@@ -112,15 +112,10 @@ void get(const Services& services, const KindOfDocument& kind, const Request& re
          Responder responder) {
   services.documents.read(
       kind.kind, name_in_path(kind, request),
-      [if_match = preconditions_of(request).if_match,
-       shared = share(std::move(responder))](Result<app::NamedDocument> document) {
-        if (!document) return shared->fail(document.error());
-        const std::string tag = etag_of_text(document->text);
-        if (!Preconditions{.if_match = if_match}.hold(tag)) return shared->fail(other_state());
-        Response response(200, "application/json", std::move(document->text));
-        response.etag = tag;
-        shared->answer(std::move(response));
-      });
+      answer_with(std::move(responder),
+                  [if_match = preconditions_of(request).if_match](app::NamedDocument document) {
+                    return with_tag({200, "application/json", std::move(document.text)}, if_match);
+                  }));
 }
 
 void remove(const Services& services, const KindOfDocument& kind, const Request& request,
@@ -153,13 +148,10 @@ Result<std::string> list_of(const KindOfDocument& kind,
 
 void list(const Services& services, const KindOfDocument& kind, const Request&,
           Responder responder) {
-  services.documents.list(kind.kind, [&kind, shared = share(std::move(responder))](
-                                         Result<std::vector<app::NamedDocument>> documents) {
-    if (!documents) return shared->fail(documents.error());
-    auto body = list_of(kind, *documents);
-    if (!body) return shared->fail(body.error());
-    shared->answer({200, "application/json", *std::move(body)});
-  });
+  services.documents.list(kind.kind,
+                          answer_with(std::move(responder), [&kind](const auto& documents) {
+                            return json_response(list_of(kind, documents));
+                          }));
 }
 
 }  // namespace

@@ -1,30 +1,9 @@
-#include "api/resources.hpp"
 #include "api/service/commit_stream.hpp"
 #include "api/wire/event_text.hpp"
 #include "record/record.hpp"
 
 namespace fitgauge::api {
 namespace {
-
-/// The events that follow a position, in pages.
-class EventStream final : public CommitStream {
- public:
-  struct Start {
-    std::optional<app::EventPosition> after{};  ///< none: from now on
-    bool gap = false;                           ///< the reader named an invalid position
-  };
-
-  EventStream(app::EventService& events, Start start, std::optional<app::Source> source)
-      : CommitStream(events), place_{start.after, source}, gap_(start.gap) {}
-
- private:
-  void read() override;
-  void take(const app::EventService::Page& page);
-
-  // Only the one thread that reads uses these.
-  app::EventService::Place place_;
-  bool gap_ = false;
-};
 
 constexpr std::string_view kGap =
     R"({"detail":"the events after the id you named are gone: read the lists again"})";
@@ -39,30 +18,46 @@ void write_event(std::string& text, const app::Event& event) {
   append_event(text, event.type, app::event_id_text(event.id, event.history), data);
 }
 
-void EventStream::read() {
-  app::EventService::Place place = place_;
-  if (gap_) place.after.reset();
-  events_.read(place, write_event,
-               [self = std::static_pointer_cast<EventStream>(shared_from_this())](
-                   const Result<app::EventService::Page>& page) {
-                 if (!page) return self->fail();
-                 self->take(*page);
-               });
-}
+/// The events that follow a position, in pages.
+class EventStream final : public CommitStream {
+ public:
+  struct Start {
+    std::optional<app::EventPosition> after{};  ///< none: from now on
+    bool gap = false;                           ///< the reader named an invalid position
+  };
 
-/// The reader learns its position with its first piece, and of a gap when there is one.
-void EventStream::take(const app::EventService::Page& page) {
-  std::string piece = page.text;
-  const std::string id = events_.id_text(page.position);
-  if (page.gap || gap_) {
-    append_event(piece, "resync", id, kGap);
-  } else if (!place_.after) {
-    append_event_id(piece, id);
+  EventStream(app::EventService& events, Start start, std::optional<app::Source> source)
+      : CommitStream(events), place_{start.after, source}, gap_(start.gap) {}
+
+ private:
+  void read() override {
+    app::EventService::Place place = place_;
+    if (gap_) place.after.reset();
+    events_.read(place, write_event,
+                 [self = std::static_pointer_cast<EventStream>(shared_from_this())](
+                     const Result<app::EventService::Page>& page) {
+                   if (!page) return self->fail();
+                   self->take(*page);
+                 });
   }
-  gap_ = false;
-  place_.after = page.position;
-  took(std::move(piece), page.more);
-}
+  /// The reader learns its position with its first piece, and of a gap when there is one.
+  void take(const app::EventService::Page& page) {
+    std::string piece = page.text;
+    const std::string id = events_.id_text(page.position);
+    if (page.gap || gap_) {
+      append_event(piece, "resync", id, kGap);
+    } else if (!place_.after) {
+      append_event_id(piece, id);
+    }
+    gap_ = false;
+    place_.after = page.position;
+    took(std::move(piece), page.more);
+  }
+
+  // Only the one thread that reads uses these.
+  app::EventService::Place place_;
+  bool gap_ = false;
+};
 
 EventStream::Start start_of(const Services& services, const Request& request) {
   const auto named = last_event_id(request);

@@ -7,29 +7,12 @@ namespace {
 
 constexpr std::string_view kTokenPrefix = "fg_";
 
-/// Rights that a route needs, in rising order: `public` (health, even in keys mode), `open`, and
-/// roles. `station` also allows administrators, but no operators.
-enum class Access { Public, Open, Viewer, Operator, Admin, Station };
-
-Access access_of(const http::Route& route, const Request& request) {
+/// Rights that a route needs: `public` (health, even in keys mode), `open`, or a role. `station`
+/// also allows administrators, but no operators.
+std::string_view access_of(const http::Route& route, const Request& request) {
   const bool asks_more =
       !request.query().empty() && !route.query_access.empty() && !asks_for_revision_alone(request);
-  const std::string_view access = asks_more ? route.query_access : route.access;
-  if (access == "open") return Access::Open;
-  if (access == "viewer") return Access::Viewer;
-  if (access == "operator") return Access::Operator;
-  if (access == "public") return Access::Public;
-  if (access == "station") return Access::Station;
-  return Access::Admin;
-}
-
-app::Role role_for(Access access) {
-  switch (access) {
-    case Access::Admin: return app::Role::Admin;
-    case Access::Operator: return app::Role::Operator;
-    case Access::Station: return app::Role::Station;
-    default: return app::Role::Viewer;
-  }
+  return asks_more ? route.query_access : route.access;
 }
 
 bool is_write(http::Method method) {
@@ -94,12 +77,14 @@ Result<std::optional<Response>> Guard::operator()(Request& request,
                      " may not write here: if it is your origin, start with --allow-origin"};
   }
 
-  const Access access = access_of(route, request);
-  if (access == Access::Public) return std::optional<Response>();
+  const std::string_view access = access_of(route, request);
+  if (access == "public") return std::optional<Response>();
   if (request.is_health_only()) {
     return Error{ErrorCode::Forbidden, "this port answers only /livez and /readyz"};
   }
-  if (closed_ && is_write(request.method()) && access >= Access::Operator) {
+  const app::Role needed =
+      app::role_from_word(access).value_or(access == "open" ? app::Role::Viewer : app::Role::Admin);
+  if (closed_ && is_write(request.method()) && needed != app::Role::Viewer) {
     if (auto why = closed_()) return *std::move(why);
   }
   const auto token = token_of(request);
@@ -113,7 +98,7 @@ Result<std::optional<Response>> Guard::operator()(Request& request,
     }
     if (caller) request.set_caller(Caller{caller->name, caller->key});
   }
-  const bool is_open = mode_ != AuthMode::Keys && access == Access::Open && !is_foreign;
+  const bool is_open = mode_ != AuthMode::Keys && access == "open" && !is_foreign;
   if (mode_ == AuthMode::Open && !is_foreign && request.is_local() &&
       (is_open || !may_be_rebound(request))) {
     warn_of_proxy(request);
@@ -126,7 +111,6 @@ Result<std::optional<Response>> Guard::operator()(Request& request,
                  "send a key: `Authorization: Bearer fg_…`; an administrator creates keys with "
                  "`fitgauged key create`"};
   }
-  const app::Role needed = role_for(access);
   if (!app::may(caller->role, needed)) {
     return Error{ErrorCode::Forbidden,
                  fmt::format("the key {} has the role {}; this needs the role {}", caller->name,

@@ -29,9 +29,8 @@ void append_label(std::string& out, std::string_view name, std::string_view valu
   out += '"';
 }
 
-using Seconds = Histogram<15>;
-constexpr Seconds::Bounds kSeconds = {0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025,
-                                      0.05,   0.1,     0.25,   0.5,   1,      2.5,   10};
+constexpr Histogram<15>::Bounds kSeconds = {
+    0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5, 10};
 
 constexpr int kUnauthorized = 401;
 constexpr int kServerError = 500;
@@ -40,16 +39,6 @@ constexpr int kServerError = 500;
 constexpr std::size_t kRowsOfAStep = 200'000;
 
 }  // namespace
-
-Exposition& Exposition::counter(std::string_view name, std::string_view help) {
-  return family(name, help, "counter");
-}
-Exposition& Exposition::gauge(std::string_view name, std::string_view help) {
-  return family(name, help, "gauge");
-}
-Exposition& Exposition::histogram(std::string_view name, std::string_view help) {
-  return family(name, help, "histogram");
-}
 
 Exposition& Exposition::family(std::string_view name, std::string_view help,
                                std::string_view type) {
@@ -82,42 +71,25 @@ void Exposition::line(std::string_view suffix, Labels labels, std::optional<doub
   out_ += '\n';
 }
 
-struct Metrics::Parts {
-  /// By the route's text (whose address is its identity), the method and the status.
-  using Key = std::tuple<const char*, http::Method, int>;
-  struct Requests {
-    std::uint64_t count = 0;
-    std::string_view route{};  ///< the key in `seconds`
-    Seconds* seconds = nullptr;
-  };
-
-  std::vector<Source> sources;
-  std::mutex mutex;
-  std::map<Key, Requests> requests;
-  std::map<std::string, Seconds, std::less<>> seconds;  ///< by route, all its methods together
-  std::map<ErrorCode, std::uint64_t> problems;
-};
-
-Metrics::Metrics() : parts_(std::make_unique<Parts>()) {
+Metrics::Metrics() {
   // Alarms need their series from the start: a series that begins with 1 has no increase.
   for (const ErrorCode code : {
 #define FITGAUGE_ERROR(name, id, title, status) ErrorCode::name,
+#include "base/error_codes.inc"
 #undef FITGAUGE_ERROR
        }) {
     const int status = status_of(code);
-    if (status == kUnauthorized || status >= kServerError) parts_->problems[code] = 0;
+    if (status == kUnauthorized || status >= kServerError) problems_[code] = 0;
   }
 }
-Metrics::~Metrics() = default;
 
 void Metrics::count(const http::FinishedRequest& request) {
-  const Parts::Key key{request.route.data(), request.request.method(), request.status};
-  const std::lock_guard lock(parts_->mutex);
-  auto [found, is_new] = parts_->requests.try_emplace(key);
-  Parts::Requests& requests = found->second;
+  const Key key{request.route.data(), request.request.method(), request.status};
+  const std::lock_guard lock(mutex_);
+  auto [found, is_new] = requests_.try_emplace(key);
+  Requests& requests = found->second;
   if (is_new) {
-    auto& [route, seconds] =
-        *parts_->seconds.try_emplace(std::string(request.route), kSeconds).first;
+    auto& [route, seconds] = *seconds_.try_emplace(std::string(request.route), kSeconds).first;
     requests.route = route;
     requests.seconds = &seconds;
   }
@@ -126,13 +98,13 @@ void Metrics::count(const http::FinishedRequest& request) {
 }
 
 void Metrics::count(ErrorCode code) {
-  const std::lock_guard lock(parts_->mutex);
-  ++parts_->problems[code];
+  const std::lock_guard lock(mutex_);
+  ++problems_[code];
 }
 
 void Metrics::add(Source source) {
-  const std::lock_guard lock(parts_->mutex);
-  parts_->sources.push_back(std::move(source));
+  const std::lock_guard lock(mutex_);
+  sources_.push_back(std::move(source));
 }
 
 std::string Metrics::text() const {
@@ -141,9 +113,9 @@ std::string Metrics::text() const {
   out.gauge("fitgauge_build_info", "1, with the version as a label")
       .sample(1, {{"version", kVersion}});
   {
-    const std::lock_guard lock(parts_->mutex);
+    const std::lock_guard lock(mutex_);
     out.counter("fitgauge_http_requests_total", "Answered requests by route, method and status");
-    for (const auto& [key, requests] : parts_->requests) {
+    for (const auto& [key, requests] : requests_) {
       // A method the service does not know is the client's text: it must not become a label.
       const http::Method method = std::get<http::Method>(key);
       out.sample(static_cast<double>(requests.count),
@@ -153,12 +125,12 @@ std::string Metrics::text() const {
     }
     out.histogram("fitgauge_http_request_duration_seconds",
                   "From a request's first byte to its answer's last byte");
-    for (const auto& [route, seconds] : parts_->seconds) out.sample(seconds, {{"route", route}});
+    for (const auto& [route, seconds] : seconds_) out.sample(seconds, {{"route", route}});
     out.counter("fitgauge_problems_total", "Problem documents answered, by their code");
-    for (const auto& [code, count] : parts_->problems) {
+    for (const auto& [code, count] : problems_) {
       out.sample(static_cast<double>(count), {{"code", id(code)}});
     }
-    sources = parts_->sources;
+    sources = sources_;
   }
   for (const Source& source : sources) source(out);
   return out.take();

@@ -12,9 +12,15 @@ class Exposition {
   using Labels = std::initializer_list<std::pair<std::string_view, std::string_view>>;
 
   // Begins a family; the next samples belong to it. Names are plain words of the contract.
-  Exposition& counter(std::string_view name, std::string_view help);
-  Exposition& gauge(std::string_view name, std::string_view help);
-  Exposition& histogram(std::string_view name, std::string_view help);
+  Exposition& counter(std::string_view name, std::string_view help) {
+    return family(name, help, "counter");
+  }
+  Exposition& gauge(std::string_view name, std::string_view help) {
+    return family(name, help, "gauge");
+  }
+  Exposition& histogram(std::string_view name, std::string_view help) {
+    return family(name, help, "histogram");
+  }
 
   Exposition& sample(double value, Labels labels = {});
 
@@ -51,7 +57,6 @@ class Exposition {
 class Metrics {
  public:
   Metrics();
-  ~Metrics();
 
   void count(const http::FinishedRequest& request);
   /// A problem document was answered.
@@ -66,8 +71,20 @@ class Metrics {
   std::string text() const;
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  using Seconds = Histogram<15>;
+  /// By the route's text (whose address is its identity), the method and the status.
+  using Key = std::tuple<const char*, http::Method, int>;
+  struct Requests {
+    std::uint64_t count = 0;
+    std::string_view route{};  ///< the key in `seconds_`
+    Seconds* seconds = nullptr;
+  };
+
+  std::vector<Source> sources_;
+  mutable std::mutex mutex_;
+  std::map<Key, Requests> requests_;
+  std::map<std::string, Seconds, std::less<>> seconds_;  ///< by route, all its methods together
+  std::map<ErrorCode, std::uint64_t> problems_;
 };
 
 /// Counts the measurements since the start by source and verdict, for metrics: reads new rows at

@@ -103,12 +103,12 @@ void write_request_body(JsonWriter& json, const http::BodyRules& body, const Sch
 
 bool has_json_body(const http::Route& route) {
   const auto& types = route.body.media_types;
-  return std::find(types.begin(), types.end(), "application/json") != types.end();
+  return std::ranges::find(types, "application/json") != types.end();
 }
 
 /// A length that is too fine or out of range is 422, in a query as in a body.
 bool takes_length(const http::Route& route) {
-  return std::any_of(route.parameters.begin(), route.parameters.end(), [](const auto& parameter) {
+  return std::ranges::any_of(route.parameters, [](const auto& parameter) {
     return std::holds_alternative<http::LengthIn>(parameter.type);
   });
 }

@@ -1,4 +1,3 @@
-#include "api/resources.hpp"
 
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_listing.hpp"
@@ -144,7 +143,7 @@ Result<Proposal> proposal_of(CorrectedParts& read, double cost) {
   if (read.target && !(half > 0)) {
     return Error{ErrorCode::QueryInvalid, "target_mm must be between the limits", "target_mm"};
   }
-  std::reverse(read.parts.begin(), read.parts.end());
+  std::ranges::reverse(read.parts);
   Proposal proposal{.found = metrology::propose_offset(read.parts, half, cost),
                     .values = read.parts.size()};
   if (read.is_unfit)
@@ -231,10 +230,8 @@ void add_compensation_routes(Routes& add) {
   parameters.push_back(query("target_mm", http::LengthIn{},
                              "Value to aim at in mm (default: the middle of the limits)"));
   parameters.push_back(
-      {.name = "cost",
-       .type = http::Decimal{.scale = 6, .min = 1, .max = 1'000'000'000},
-       .description =
-           "Cost of a correction in parts (default: 0.1); a larger cost gives fewer corrections"});
+      query("cost", http::Decimal{.scale = 6, .min = 1, .max = 1'000'000'000},
+            "Cost of a correction in parts (default: 0.1); a larger cost gives fewer corrections"));
   add("GET /v1/measurements/compensation proposeOffset viewer", propose,
       {.summary = "The next offset of a machine",
        .description = "A proposal from the newest 500 values that match; nothing moves a machine. "

@@ -104,7 +104,7 @@ void members(auto& v, const ChartAnswer& answer) {
 /// An answer of stored values.
 template <class Answer>
 struct Stored {
-  SelectionAnswer selection{};
+  Selection selection{};
   Answer answer{};
 };
 template <class Answer>

@@ -13,8 +13,8 @@ using metrology::ChartKind;
 constexpr int kScale = 6;
 constexpr double kMillion = 1e6;
 
-/// A computation over a selection, given the newest id.
-using Figure = std::function<Result<std::string>(ValueSelection&&, const std::string& as_of)>;
+/// A computation over a selection.
+using Figure = std::function<Result<std::string>(ValueSelection&&)>;
 
 /// Reads the values of the filters and computes from them; both may be slow.
 void answer_with(const Services& services, const Request& request, Responder responder,
@@ -25,8 +25,8 @@ void answer_with(const Services& services, const Request& request, Responder res
   services.jobs.figures.run(
       [&services, query = *std::move(query), figure = std::move(figure)]() -> Result<Response> {
         ValueSelection selection;
-        const auto read = TRY(selection.read(services.measurements, query));
-        return json_response(figure(std::move(selection), read));
+        TRY(selection.read(services.measurements, query));
+        return json_response(figure(std::move(selection)));
       },
       answer_by(share(std::move(responder))));
 }
@@ -50,14 +50,13 @@ void find_capability(const Services& services, const Request& request, Responder
       static_cast<long double>(request.integer("confidence").value_or(kUsual)) / kMillion;
   answer_with(services, request, std::move(responder),
               [target, confidence, ignore = ignores_subgroups(request)](
-                  ValueSelection&& selection, const std::string& as_of) -> Result<std::string> {
+                  ValueSelection&& selection) -> Result<std::string> {
                 auto selected = TRY(std::move(selection).selected(ignore));
                 if (target) selected.limits.target = exact_mm(*target);
                 auto made =
                     TRY(metrology::assess_capability(selected.data, selected.limits, confidence));
                 return body_json(Stored<CapabilityAnswer>{
-                    selection_of(selected, as_of),
-                    {std::move(made), selected.limits, confidence, name_in(selected)}});
+                    selected, {std::move(made), selected.limits, confidence, name_in(selected)}});
               });
 }
 
@@ -123,8 +122,7 @@ void find_chart(const Services& services, const Request& request, Responder resp
   auto stored = chart_plan(request);
   if (!stored) return responder.fail(stored.error());
   answer_with(services, request, std::move(responder),
-              [stored = *std::move(stored)](ValueSelection&& selection,
-                                            const std::string& as_of) -> Result<std::string> {
+              [stored = *std::move(stored)](ValueSelection&& selection) -> Result<std::string> {
                 metrology::ChartPlan plan = stored.plan;
                 auto selected = TRY(std::move(selection).selected(stored.ignores_subgroups));
                 if (!stored.has_kind && selected.data.size > 1) plan.kind = ChartKind::XbarR;
@@ -134,21 +132,18 @@ void find_chart(const Services& services, const Request& request, Responder resp
                 constexpr std::size_t kOfAPoint = 12;  // unused room needs no memory
                 out.reserve(2 * kOfAPoint * selected.count);
                 JsonWriter json(out);
-                write_body(json,
-                           Stored<ChartAnswer>{selection_of(selected, as_of),
-                                               {plan.kind, std::move(made), name_in(selected)}});
+                write_body(json, Stored<ChartAnswer>{
+                                     selected, {plan.kind, std::move(made), name_in(selected)}});
                 return out;
               });
 }
 
 std::vector<Parameter> with_stored_filters(std::vector<Parameter> own) {
-  auto parameters = measurement_filter_parameters();
   own.push_back(subgroups_parameter());
   constexpr std::int64_t kMostOfLast = 1'000'000;
   own.push_back(query("last", http::Integer{.min = 1, .max = kMostOfLast},
                       "Only this number of the newest matches"));
-  parameters.insert(parameters.end(), own.begin(), own.end());
-  return parameters;
+  return measurement_filter_parameters() + own;
 }
 
 /// A number up to `most`, of `least` millionths at least.

@@ -1,7 +1,5 @@
 #include "api/statistics/statistics_answers.hpp"
 
-#include "api/statistics/computation.hpp"
-#include "api/wire/formulas.hpp"
 #include "metrology/statistics/model.hpp"
 #include "service/measurements/uncertainty_budget.hpp"
 

@@ -61,12 +61,13 @@ std::string ValueSelection::text_of(const Limits& limits) {
   return fmt::format("{} to {} mm", format_mm(*limits.lower), format_mm(*limits.upper));
 }
 
-Result<std::string> ValueSelection::read(app::MeasurementService& measurements,
-                                         const app::MeasurementQuery& query) {
+Result<void> ValueSelection::read(app::MeasurementService& measurements,
+                                  const app::MeasurementQuery& query) {
   auto values = TRY(
       measurements.read_values(query, [this](const app::MeasuredRun& run) { return add(run); }));
   move(values.moves);
-  return std::move(values.as_of);
+  as_of_ = std::move(values.as_of);
+  return {};
 }
 
 Result<void> ValueSelection::add(const app::MeasuredRun& run) {
@@ -170,13 +171,15 @@ Result<SelectedValues> ValueSelection::described() {
   const auto exact = [](const std::optional<Length>& limit) {
     return limit ? std::optional(exact_mm(*limit)) : std::nullopt;
   };
-  return SelectedValues{.data = {},
-                        .limits = {.lower = exact(limits_->lower), .upper = exact(limits_->upper)},
-                        .lower_limit = limits_->lower,
-                        .upper_limit = limits_->upper,
-                        .count = counts_.size(),
-                        .first_id = ids_.text(0),
-                        .last_id = ids_.text(ids_.size() - 1)};
+  SelectedValues made;
+  made.limits = {.lower = exact(limits_->lower), .upper = exact(limits_->upper)};
+  made.lower_limit = limits_->lower;
+  made.upper_limit = limits_->upper;
+  made.count = counts_.size();
+  made.first_id = ids_.text(0);
+  made.last_id = ids_.text(ids_.size() - 1);
+  made.as_of = as_of_;
+  return made;
 }
 
 Result<SelectedValues> ValueSelection::one_by_one() && {
@@ -209,6 +212,7 @@ Result<SelectedValues> ValueSelection::by_subgroup() && {
   for (std::size_t i = 0; i < counts_.size(); ++i) sorted[ends[groups_[i]]++] = counts_[i];
   counts_ = {};
   made->data = {.values = Decimals(std::move(sorted), kDecimalsOfMm), .size = size};
+  made->subgroup_count = names_.size();
   made->subgroups.reserve(names_.size());
   for (const std::string* name : names_) made->subgroups.push_back(*name);
   return made;
@@ -220,22 +224,10 @@ Result<SelectedValues> ValueSelection::selected(bool ignores_subgroups) && {
 }
 
 Parameter subgroups_parameter() {
-  return {.name = "subgroups",
-          .type = http::Words{{"use", "ignore"}},
-          .description =
-              "use: by `subgroup` if the values name one; ignore: one by one (default: use)"};
+  return query("subgroups", http::Words{{"use", "ignore"}},
+               "use: by `subgroup` if the values name one; ignore: one by one (default: use)");
 }
 
 bool ignores_subgroups(const Request& request) { return request.text("subgroups") == "ignore"; }
-
-SelectionAnswer selection_of(const SelectedValues& selected, std::string as_of) {
-  return {.count = selected.count,
-          .subgroups = selected.subgroups.size(),
-          .first_id = selected.first_id,
-          .last_id = selected.last_id,
-          .as_of = std::move(as_of),
-          .lower_limit = selected.lower_limit,
-          .upper_limit = selected.upper_limit};
-}
 
 }  // namespace fitgauge::api

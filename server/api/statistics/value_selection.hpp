@@ -37,17 +37,32 @@ class MeasurementIds {
   std::vector<Part> parts_;
 };
 
-/// The stored values a figure is computed from, in mm, with the limits all of them have.
-struct SelectedValues {
-  metrology::Subgroups data;
-  metrology::SpecificationLimits limits{};
-  std::optional<Length> lower_limit;
-  std::optional<Length> upper_limit;
-  MeasurementIds ids{};                  ///< of single values
-  std::vector<std::string> subgroups{};  ///< otherwise the names of the subgroups
+/// The measurements of a figure, in a response.
+struct Selection {
   std::size_t count = 0;
+  std::size_t subgroup_count = 0;
   std::string first_id{};  ///< in the order of a chart
   std::string last_id{};
+  std::string as_of{};  ///< the newest measurement there was
+  std::optional<Length> lower_limit{};
+  std::optional<Length> upper_limit{};
+};
+void members(auto& v, const Selection& selection) {
+  v.member("count", selection.count, "Number of values");
+  v.member("subgroups", selection.subgroup_count, "0 if the values are single values");
+  v.member("first_id", selection.first_id, "The first of them in storage order");
+  v.member("last_id", selection.last_id);
+  v.member("as_of", selection.as_of, "The newest measurement there was");
+  v.optional("lower_limit_mm", selection.lower_limit, Millimetres{}, "Limit of all values");
+  v.optional("upper_limit_mm", selection.upper_limit, Millimetres{});
+}
+
+/// The stored values a figure is computed from, in mm, with the limits all of them have.
+struct SelectedValues : Selection {
+  metrology::Subgroups data{};
+  metrology::SpecificationLimits limits{};
+  MeasurementIds ids{};                  ///< of single values
+  std::vector<std::string> subgroups{};  ///< otherwise the names of the subgroups
 };
 
 /// Collects values as they are read. Its memory is bounded: 20 bytes a value, and the names of the
@@ -59,9 +74,8 @@ class ValueSelection {
   explicit ValueSelection(std::size_t most_bytes = kMostBytes) : most_bytes_(most_bytes) {}
 
   /// Adds all values of a query, a correction in the place of its target. Blocks.
-  /// @returns the id of the newest measurement. @errors those of add() and of reading
-  Result<std::string> read(app::MeasurementService& measurements,
-                           const app::MeasurementQuery& query);
+  /// @errors those of add() and of reading
+  Result<void> read(app::MeasurementService& measurements, const app::MeasurementQuery& query);
 
   /// @errors LimitsMixed: other limits than the first value; StatisticsTooMany; FiguresLimit.
   Result<void> add(const app::MeasuredRun& run);
@@ -91,6 +105,7 @@ class ValueSelection {
   Result<SelectedValues> described();
 
   const std::size_t most_bytes_;
+  std::string as_of_;
   std::size_t bytes_ = 0;
   std::optional<Limits> limits_;
   std::vector<metrology::Wide> counts_;  ///< in nm
@@ -106,27 +121,5 @@ class ValueSelection {
 /// `subgroups=ignore`
 Parameter subgroups_parameter();
 bool ignores_subgroups(const Request& request);
-
-/// The measurements of a figure, in a response.
-struct SelectionAnswer {
-  std::size_t count = 0;
-  std::size_t subgroups = 0;
-  std::string first_id{};
-  std::string last_id{};
-  std::string as_of{};
-  std::optional<Length> lower_limit{};
-  std::optional<Length> upper_limit{};
-};
-void members(auto& v, const SelectionAnswer& selection) {
-  v.member("count", selection.count, "Number of values");
-  v.member("subgroups", selection.subgroups, "0 if the values are single values");
-  v.member("first_id", selection.first_id, "The first of them in storage order");
-  v.member("last_id", selection.last_id);
-  v.member("as_of", selection.as_of, "The newest measurement there was");
-  v.optional("lower_limit_mm", selection.lower_limit, Millimetres{}, "Limit of all values");
-  v.optional("upper_limit_mm", selection.upper_limit, Millimetres{});
-}
-
-SelectionAnswer selection_of(const SelectedValues& selected, std::string as_of);
 
 }  // namespace fitgauge::api

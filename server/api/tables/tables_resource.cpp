@@ -43,7 +43,7 @@ Result<std::vector<ClassId>> chosen_classes(std::string_view names, Feature feat
       return Error{ErrorCode::ClassUnknown,
                    fmt::format("{} is not a class of the {} table", name, word(feature))};
     }
-    if (std::find(chosen.begin(), chosen.end(), *id) == chosen.end()) chosen.push_back(*id);
+    if (std::ranges::find(chosen, *id) == chosen.end()) chosen.push_back(*id);
   }
   return chosen;
 }
@@ -160,7 +160,7 @@ Result<std::string> column_name(const Request& request) {
 bool name_tables(std::string_view tags, std::string_view revision, bool exists, bool weakly) {
   if (trim(tags) == "*") return exists;
   const auto items = http::list_items(tags);
-  return std::any_of(items.begin(), items.end(), [&](std::string_view tag) {
+  return std::ranges::any_of(items, [&](std::string_view tag) {
     if (weakly && tag.starts_with("W/")) tag.remove_prefix(2);
     if (!tag.starts_with('"') || !tag.substr(1).starts_with(revision)) return false;
     const std::string_view form = tag.substr(1 + revision.size());

@@ -77,8 +77,8 @@ constexpr std::array kFormulas = {
 }  // namespace
 
 const Formula& formula_of(std::string_view of) {
-  const auto found = std::find_if(kFormulas.begin(), kFormulas.end(),
-                                  [of](const Formula& formula) { return formula.of == of; });
+  const auto found =
+      std::ranges::find_if(kFormulas, [of](const Formula& formula) { return formula.of == of; });
   if (found == kFormulas.end()) throw std::logic_error("no formula of " + std::string(of));
   return *found;
 }

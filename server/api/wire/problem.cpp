@@ -25,6 +25,7 @@ void add_headers(const Error& error, int status, Response& response) {
 int status_of(ErrorCode code) {
   static constexpr int kStatus[] = {
 #define FITGAUGE_ERROR(name, id, title, status) status,
+#include "base/error_codes.inc"
 #undef FITGAUGE_ERROR
   };
   return kStatus[static_cast<std::size_t>(code)];

@@ -60,8 +60,7 @@ Result<std::optional<std::string>> idempotency_key(const Request& request) {
   if (key.size() >= 2 && key.front() == '"' && key.back() == '"') {
     key = key.substr(1, key.size() - 2);
   }
-  const bool visible =
-      std::all_of(key.begin(), key.end(), [](char c) { return c >= ' ' && c <= '~'; });
+  const bool visible = std::ranges::all_of(key, [](char c) { return c >= ' ' && c <= '~'; });
   if (key.empty() || key.size() > kLongest || !visible) {
     return Error{ErrorCode::IdempotencyKeyInvalid,
                  "Idempotency-Key must have 1 to 255 visible ASCII characters"};
@@ -124,6 +123,16 @@ std::optional<std::string> caller_text(const Request& request) {
 std::string etag_of_text(std::string_view text) {
   constexpr std::size_t kTagDigits = 32;
   return '"' + to_hex(sha256(text)).substr(0, kTagDigits) + '"';
+}
+
+Result<Response> with_tag(Response response, const std::optional<std::string>& if_match) {
+  std::string tag = etag_of_text(std::get<std::string>(response.body));
+  if (!Preconditions{.if_match = if_match}.hold(tag)) {
+    return Error{ErrorCode::PreconditionFailed,
+                 "the current state does not match If-Match: read it again without If-Match"};
+  }
+  response.etag = std::move(tag);
+  return response;
 }
 
 TextPrecondition text_precondition_of(const Request& request) {

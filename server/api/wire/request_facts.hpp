@@ -41,6 +41,8 @@ Preconditions preconditions_of(const Request& request);
 
 /// Strong: texts that differ in a byte have different tags.
 std::string etag_of_text(std::string_view text);
+/// A response with the tag of its text. @errors PreconditionFailed: If-Match names another state.
+Result<Response> with_tag(Response response, const std::optional<std::string>& if_match);
 /// Decides from the current text, if there is one; empty if the request has no condition.
 using TextPrecondition = std::function<bool(std::optional<std::string_view> text)>;
 TextPrecondition text_precondition_of(const Request& request);
