@@ -195,9 +195,9 @@ Result<void> LogFollower::read() {
 }
 
 void LogFollower::find_offsets(const std::stop_token& stop) {
-  constexpr std::size_t kMostTold = 10'000;
+  constexpr std::size_t kMostToldOffsets = 10'000;
   if (!pending_.empty() || !pending_events_.empty() || read_to_ < log_end_) return;
-  if (told_.size() > kMostTold) told_.clear();
+  if (told_.size() > kMostToldOffsets) told_.clear();
   while (!made_.empty() && !stop.stop_requested()) {
     const Made& made = *made_.begin();
     api::OffsetOrder order{options_.filter.query};
