@@ -3,8 +3,8 @@
 // The parts of the standard library that every file may use, with fmt and Boost.System's result.
 // The build includes this file before every C++ file and compiles it once (precompiled header).
 
-#include <boost/system/result.hpp>
 #include <fmt/format.h>
+#include <boost/system/result.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
 // Any bytes as a program of either dialect: every finding has its place, and a program without
 // errors, printed as Klartext and as DIN/ISO, reads back as the same.
 
+#include "../support/same_program.hpp"
 #include "nc/iso/parser.hpp"
 #include "nc/iso/printer.hpp"
 #include "nc/klartext/printer.hpp"
-#include "../support/same_program.hpp"
 
 using namespace fitgauge::klartext;
 

@@ -136,8 +136,8 @@ std::string_view LogOutbox::newest_history() const {
 }
 
 void LogOutbox::meet(std::string_view centre) const {
-  const auto known = database_.readers().wait(
-      [](const Stores& stores) -> Result<std::optional<std::string>> {
+  const auto known =
+      database_.readers().wait([](const Stores& stores) -> Result<std::optional<std::string>> {
         return stores.log.mark(store::LogStore::Mark::Centre);
       });
   if (!known || *known == centre) return;

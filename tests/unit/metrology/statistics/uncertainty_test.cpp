@@ -26,8 +26,10 @@ TEST_CASE("Monte Carlo gives the intervals of JCGM 101, 9.2, and the same for th
   for (Contribution& c : budget.contributions) c.distribution = Distribution::Rectangular;
   const MonteCarloResult rectangular = simulate(budget, {.trials = 400'000, .seed = 1}).value();
   CHECK(rectangular.upper == Approx(3.88).epsilon(0.008));
-  CHECK(simulate(budget, {.trials = 1000, .seed = 5}).value().upper == simulate(budget, {.trials = 1000, .seed = 5}).value().upper);
-  CHECK(simulate(budget, {.trials = 1000, .seed = 5}).value().upper != simulate(budget, {.trials = 1000, .seed = 6}).value().upper);
+  CHECK(simulate(budget, {.trials = 1000, .seed = 5}).value().upper ==
+        simulate(budget, {.trials = 1000, .seed = 5}).value().upper);
+  CHECK(simulate(budget, {.trials = 1000, .seed = 5}).value().upper !=
+        simulate(budget, {.trials = 1000, .seed = 6}).value().upper);
 }
 
 TEST_CASE("correlated contributions have no more freedom than one of them") {
@@ -55,7 +57,8 @@ TEST_CASE("every shape is drawn with its standard uncertainty") {
   for (const Distribution shape : {Distribution::Normal, Distribution::Rectangular,
                                    Distribution::Triangular, Distribution::UShaped}) {
     Budget budget{.contributions = {{.standard_uncertainty = 2, .distribution = shape}}};
-    CHECK(simulate(budget, {.trials = 200'000, .seed = 3}).value().standard_deviation == Approx(2).epsilon(0.01));
+    CHECK(simulate(budget, {.trials = 200'000, .seed = 3}).value().standard_deviation ==
+          Approx(2).epsilon(0.01));
   }
   // A t with 10 degrees of freedom is wider: sqrt(10 / 8).
   Budget budget{
