@@ -186,7 +186,8 @@ std::optional<LoadedTables> TablesStore::load(std::string_view id) const {
   std::int64_t number = 0;
   std::from_chars(id.data(), id.data() + id.size(), number);
   auto loaded = load(number);
-  return loaded && loaded->revision.id == id ? loaded : std::nullopt;
+  if (loaded && loaded->revision.id != id) loaded.reset();
+  return loaded;
 }
 
 Digest TablesStore::compute_digest(std::int64_t number) const {
