@@ -8,6 +8,7 @@
 #include "cli/watch_command.hpp"
 
 namespace fitgauge::cli {
+
 std::string record_target(std::string path, const RecordQuery& query,
                           std::initializer_list<std::pair<std::string_view, std::string>> others) {
   char separator = '?';

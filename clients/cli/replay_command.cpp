@@ -149,7 +149,8 @@ Outcome<JsonValue> run_on_contacts(const Context& context, const ReplayOptions& 
     return Failure{ExitCode::LocalFile, options.contacts + ": is not JSON: [[X, Y, Z], null, …]"};
   const std::string body =
       fmt::format("{},\"contacts_mm\":{}}}", order.substr(0, order.size() - 1), contacts);
-  return context.document_of(TRY(context.post_once("/v1/runs", body)));
+  const auto answer = TRY(context.post_once("/v1/runs", body));
+  return context.document_of(answer);
 }
 
 /// `replay PROGRAM LOG --contacts FILE`: runs the program on a machine whose probe finds the

@@ -56,7 +56,7 @@ inline http::BodyRules json_body(std::string schema) {
           .schema = std::move(schema)};
 }
 
-/// Adds the routes of a resource. The functions stand by the groups of operations.
+/// Adds the routes of a resource.
 using AddRoutes = void(Routes& add);
 /// /v1/limits, /v1/fits, /v1/gauges, /v1/standards, /v1/press-fits and /v1/verdicts: nothing is
 /// stored.

@@ -133,7 +133,11 @@ void read_limits(Record& record, const JsonValue& json, Measurement& m) {
   using Basis = app::LimitsBasis;
   const std::array known = {Basis::Iso286, Basis::Custom, Basis::Explicit, Basis::Standard};
   const auto found = std::ranges::find(known, basis, [](Basis one) { return word(one); });
-  found != known.end() ? void(m.basis = *found) : record.wrong("basis");
+  if (found == known.end()) {
+    record.wrong("basis");
+  } else {
+    m.basis = *found;
+  }
   m.table_revision = record.text("table_revision").value_or("");
   if (const JsonValue* range = json.find("size_range_mm")) {
     TextArena unused;

@@ -178,8 +178,8 @@ Result<void> start(const SharedPosting& posting) {
     posting->responder.answer(with_preference(api::response_of(std::move(answer))));
     return {};
   }
-  (run)->on_end([posting, location = std::move(answer.location)](
-                    const Result<app::FinishedRun>& end) { answer_end(posting, location, end); });
+  run->on_end([posting, location = std::move(answer.location)](
+                  const Result<app::FinishedRun>& end) { answer_end(posting, location, end); });
   return {};
 }
 

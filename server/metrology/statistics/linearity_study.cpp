@@ -1,4 +1,3 @@
-
 #include "metrology/statistics/gauge_study.hpp"
 #include "metrology/statistics/summary.hpp"
 

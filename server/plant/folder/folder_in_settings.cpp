@@ -1,4 +1,3 @@
-
 #include <cerrno>
 
 #include "plant/folder/folder_in.hpp"

@@ -1,4 +1,3 @@
-
 #include "db/sqlite/database_file.hpp"
 #include "db/store/stores.hpp"
 #include "fixture.hpp"

@@ -1,4 +1,3 @@
-
 #include <doctest/doctest.h>
 
 #include "tables/iso286/tolerance_class.hpp"

@@ -1,4 +1,3 @@
-
 #include <doctest/doctest.h>
 
 #include "tables/tabfile/tab_table.hpp"
