@@ -13,7 +13,9 @@ std::string with_detail(std::string_view text, std::string_view detail) {
 
 std::string_view error_text(int number) {
   constexpr int kFirst = 1000;
-  std::string_view rest = templates::error_texts::all;
+  constexpr std::string_view kTexts = templates::error_texts::all;
+  static_assert(std::ranges::count(kTexts, '\n') == 110, "the errors 1000 to 1109");
+  std::string_view rest = kTexts;
   for (int at = kFirst; at < number && !rest.empty(); ++at)
     rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
   return number < kFirst ? std::string_view() : rest.substr(0, rest.find('\n'));

@@ -135,7 +135,7 @@ inline constexpr CycleParameter kReferenceAngle = angle(307, "Angle of the refer
 inline constexpr CycleParameter kTransfer = choice(
     303, "Measured value transfer: 0 datum table, 1 preset table, -1 of old programs", -1, 1, 1);
 
-/// The words of the dotted cycles 0 to 4 and 30 to 33.
+/// A parameter of a sub-line, as the dotted cycles have them.
 constexpr CycleParameter in_part(std::uint8_t part, CycleParameter parameter) {
   parameter.part = part;
   return parameter;

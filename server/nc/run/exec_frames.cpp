@@ -114,7 +114,7 @@ NcResult<Matrix3> rotation_of(const Channel& channel, PlaneKind kind, const Plan
 }
 
 NcResult<void> note_missing(Channel& channel, PlaneKind kind, const PlaneWords& words) {
-  // Of the other planes, one word is enough.
+  // Of the planes after Points, one word is enough; P3z is the last letter of PLANE.
   const bool needs_all = kind <= PlaneKind::Points;
   std::string missing;
   for (auto letter = Letter::X; needs_all && letter <= Letter::P3z;

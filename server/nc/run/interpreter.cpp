@@ -53,6 +53,7 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
   if (ending.error) {
     constexpr RunStatus kStatuses[] = {RunStatus::Failed, RunStatus::Stopped,
                                        RunStatus::LimitExceeded, RunStatus::Cancelled};
+    static_assert(std::size(kStatuses) == static_cast<std::size_t>(NcErrorKind::Cancelled) + 1);
     result.status = kStatuses[static_cast<std::size_t>(ending.error->kind)];
     std::vector<klartext::DiagnosticNote> origins;
     if (ending.error->kind == NcErrorKind::Error) {

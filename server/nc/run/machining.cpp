@@ -171,6 +171,7 @@ NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definit
                                                         mill_face,
                                                         mill_thread,
                                                         engrave};
+  static_assert(std::size(kMachine) == static_cast<std::size_t>(MachiningShape::PolarPattern));
   const auto index = static_cast<std::size_t>(shape);
   if (index < std::size(kMachine)) return kMachine[index](cycle);
   return nc_error(1027);  // they are not called

@@ -87,6 +87,8 @@ NcResult<void> RunLog::note(std::string text, const Place& place) {
 
 void RunLog::finish(const NcError& error, const Place& place,
                     std::vector<klartext::DiagnosticNote> origins) {
+  static_assert(static_cast<int>(MessageKind::Cancelled) ==
+                static_cast<int>(NcErrorKind::Cancelled));
   add(static_cast<MessageKind>(error.kind), error.number, error.text, place);
   messages_.back().origins = std::move(origins);
 }

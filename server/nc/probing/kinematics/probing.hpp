@@ -30,8 +30,7 @@ class KinematicsProbing {
   /// Turns and measures: touches from above, then Q423 times around the sphere from the angle Q380
   /// on. Ends above it.
   /// @errors those of turn; 1014 no contact, 1072 the measured radius differs from Q407 by more
-  /// than
-  ///   max_calibration_ball_deviation_mm.
+  ///   than max_calibration_ball_deviation_mm.
   CycleResult<SpherePose> measure(const Vec3& rotary);
   /// Retracts to the height before a turn.
   CycleResult<void> retract();

@@ -195,8 +195,7 @@ CycleResult<void> four_holes(const CycleContext& context, ProbingMotion& motion)
   for (const int main : {268, 270, 316, 318}) {
     nominal.push_back({context.number(main), context.number(main + 1)});
   }
-  const auto holes = TRY(probe_hole_centres(context, motion, nominal));
-  const auto& centre = holes;
+  const auto centre = TRY(probe_hole_centres(context, motion, nominal));
   const auto point = TRY(intersection(centre[0], centre[2], centre[1], centre[3]));
   set_length(context.host, 151, point.x);
   set_length(context.host, 152, point.y);
