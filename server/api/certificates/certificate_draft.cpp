@@ -82,7 +82,7 @@ std::string taken_text(const app::Measurement& m) {
 }
 
 /// The rule in words, with its standard.
-std::string rule_words(const gauging::DecisionRule& rule) {
+std::string rule_text(const gauging::DecisionRule& rule) {
   switch (rule.kind()) {
     case gauging::DecisionRule::Kind::Simple:
       return "simple acceptance. Good: the value lies within the limits; its uncertainty does not "
@@ -177,7 +177,7 @@ void CertificateDraft::add(const app::Measurement& m) {
   std::string rule;
   if (m.is_judged())
     rule =
-        fmt::format("R{}", rules_.try_emplace(rule_words(m.rule), rules_.size() + 1).first->second);
+        fmt::format("R{}", rules_.try_emplace(rule_text(m.rule), rules_.size() + 1).first->second);
   if (m.conformance) rule += fmt::format(", p {}", format_decimal(m.conformance->probability, 9));
   const Length deviation = m.decisive() - m.nominal_size;
   const std::optional<double> place = place_of(m);

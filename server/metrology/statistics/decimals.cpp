@@ -4,7 +4,7 @@ namespace fitgauge::metrology {
 namespace {
 
 constexpr int kMostDigits = 30;
-constexpr int kWidest = 36;
+constexpr int kMostWideDigits = 36;
 
 constexpr Wide wide_power_of_ten(int exponent) {
   Wide power = 1;
@@ -128,11 +128,11 @@ Result<void> Decimals::add(std::string_view text) {
   const Wide own = magnitude(parsed.digits);
   const Wide widened = std::max(finer > 0 ? largest_ : own, Wide{1});
   if (const int by = std::abs(finer);
-      widened > wide_power_of_ten(kWidest) / wide_power_of_ten(by)) {
+      widened > wide_power_of_ten(kMostWideDigits) / wide_power_of_ten(by)) {
     return Error{ErrorCode::NumberOutOfRange,
                  fmt::format("{}: the values must fit in {} digits, from the first digit of the "
                              "largest value to the last digit of the finest value",
-                             text.substr(0, 40), kWidest)};
+                             text.substr(0, 40), kMostWideDigits)};
   }
   Wide count = parsed.digits;
   if (finer > 0) {

@@ -11,7 +11,7 @@
 namespace fitgauge::app {
 namespace {
 
-constexpr std::int64_t kRowsAPage = 500;
+constexpr std::int64_t kRowsARead = 500;
 constexpr std::int64_t kNotesABatch = 500;
 
 }  // namespace
@@ -43,7 +43,7 @@ Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most,
     std::size_t bytes = 0;
     for (std::int64_t at = after; at < end && bytes < kMostBytes;) {
       stores.measurements.list_log(
-          0, at, std::min(kRowsAPage, end - at), [&](const MeasurementRow& row) {
+          0, at, std::min(kRowsARead, end - at), [&](const MeasurementRow& row) {
             ++at;
             if (bytes >= kMostBytes) return;
             append_record(batch.records.emplace_back(), from_store(row, names));
