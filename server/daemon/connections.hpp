@@ -13,7 +13,8 @@ namespace fitgauge::daemon {
 /// to its folder. @errors ConfigInvalid with file, line and key.
 Result<std::vector<connections::Definition>> read_connections(const std::string& path);
 
-/// Starts the connections, to be destroyed before `app`. @errors as read_connections; of storage.
+/// Starts the connections; they must be destroyed before `app`. @errors as read_connections; those
+/// of the storage.
 Result<std::unique_ptr<connections::Connections>> start_connections(const Config& config,
                                                                     app::Application& app,
                                                                     const Clock& clock,

@@ -18,7 +18,8 @@ struct Integer {
   std::int64_t min = std::numeric_limits<std::int64_t>::min();
   std::int64_t max = std::numeric_limits<std::int64_t>::max();
 };
-/// A decimal number or with a comma, read as value times 10^scale; so is the range.
+/// A decimal number, with a point or a comma, read as value times 10^scale. The range is in scaled
+/// integers.
 struct Decimal {
   int scale = 6;
   std::int64_t min = std::numeric_limits<std::int64_t>::min();

@@ -13,7 +13,8 @@
 namespace fitgauge::http {
 using TlsContext = std::shared_ptr<asio::ssl::context>;
 
-/// A connected socket on its way to another I/O thread, as a descriptor that it owns.
+/// A connected socket for another I/O thread: Asio's socket object belongs to one thread, so only
+/// the descriptor is passed. Owns it.
 class SocketInTransit {
  public:
   explicit SocketInTransit(Socket socket)

@@ -21,7 +21,8 @@ Result<void> check_name(std::string_view name);
 /// Whether a setting is never shown.
 bool is_secret(std::string_view setting);
 
-/// Adds what `body` leaves out of `before`: secrets, a password for the same broker and user.
+/// Adds the values of `before` that `body` leaves out: its secrets, and a password for the same
+/// broker and user.
 void keep_secrets(JsonValue& body, const Definition& before);
 
 /// @param body an object with `kind` and the settings of its kind.

@@ -9,7 +9,8 @@
 
 namespace fitgauge::connections {
 
-// Forms of settings beside base/json/body_forms.hpp. They only read; the meaning has the default.
+// Forms of settings beside base/json/body_forms.hpp. They only read: the meaning of a setting
+// has its default.
 
 /// A text that `parse` converts to a value. For a wrong text `parse` returns an error.
 template <class Parse>

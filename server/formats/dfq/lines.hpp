@@ -27,7 +27,7 @@ Level level_of(int number);
 /// Returns a field that is read or written here; null for others, which are stored unchanged.
 const FieldInfo* field_info(int number);
 
-/// Numbers of these fields.
+/// The numbers of the fields by their names, from fields.inc.
 namespace k {
 #define FITGAUGE_FIELD(name, number, ...) inline constexpr int name = number;
 #include "formats/dfq/fields.inc"

@@ -52,8 +52,8 @@ class Utf8Input {
     return Utf8Input(std::move(again), encoding);
   }
 
-  /// Appends the next piece. @returns false at the end. @errors TextEncoding with the byte after a
-  /// mark.
+  /// Appends the next piece. @returns false at the end. @errors TextEncoding with the byte,
+  /// counted after a mark.
   Result<bool> append(std::string& out);
 
  private:

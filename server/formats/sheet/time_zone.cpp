@@ -277,7 +277,7 @@ std::int64_t TimeZone::offset_at(std::int64_t utc) const {
 }
 
 Result<Timestamp> TimeZone::instant(const WallTime& time) const {
-  // Two offsets are enough: a zone is less than a day away and changes once in two days.
+  // Two offsets are enough: a zone is less than a day away and changes at most once in two days.
   const std::int64_t before = offset_at(time.seconds - kDay);
   const std::int64_t after = offset_at(time.seconds + kDay);
   for (const std::int64_t offset : {before, after}) {

@@ -150,7 +150,8 @@ class Part21Scanner {
     return lexer_.fail("ENDSEC expected");
   }
 
-  /// Reads anchors and references to other files (edition 3), which have no sizes.
+  /// Reads the statements of a section that has no sizes: anchors and references to other files
+  /// (edition 3).
   bool statements() {
     for (;;) {
       const std::size_t begin = lexer_.at();

@@ -233,7 +233,8 @@ void pack(Response& response, SentAnswer& sent) {
   response.body = StreamedBody{.source = std::make_shared<TextStream>(owner, body), .held = held};
 }
 
-/// Whether there is a gzip form: of short responses for clients that accept only gzip.
+/// Whether there is a gzip form. A short response has one only for a client that accepts nothing
+/// else.
 struct PackedForm {
   bool exists = false;
   bool is_sent = false;
@@ -334,7 +335,8 @@ std::shared_ptr<const PreparedResponse> prepare(const Response& response, std::s
 }
 
 HttpDate format_http_date(Timestamp time) {
-  const std::time_t second = time.nanoseconds / kNanosecondsPerSecond;
+  const std::time_t second =
+      std::chrono::floor<std::chrono::seconds>(std::chrono::nanoseconds(time.nanoseconds)).count();
   HttpDate date{};
   fmt::format_to_n(date.data(), date.size(), "{:%a, %d %b %Y %H:%M:%S} GMT", fmt::gmtime(second));
   return date;

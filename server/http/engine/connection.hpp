@@ -9,7 +9,8 @@
 namespace fitgauge::http {
 
 /// The bytes read from a connection: the head of the current request, then unparsed bytes. Small
-/// while idle, grows with a long head. A complete head does not move: pin_head() keeps it.
+/// while idle, grows with a long head. A complete head does not move: pin_head() moves it aside
+/// before its body is read.
 class InputBuffer {
  public:
   static constexpr std::size_t kSmall = 4096;
@@ -157,7 +158,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Peer& peer() { return peer_; }
 
   virtual void read_some(std::span<char> room) = 0;  ///< then on_read
-  /// Reads the bytes that have arrived; would_block if there are none or it does not know.
+  /// Reads the bytes that have arrived; would_block if there are none or the
+  /// transport does not know.
   virtual std::size_t read_now(std::span<char> room, error_code& error);
   /// Whether unread bytes have arrived; false if the transport does not know.
   virtual bool has_unread() const noexcept { return false; }

@@ -94,8 +94,8 @@ void Forwarder::follow(const CentreLink::GoesOn& goes_on) {
   const auto there = follower_.look(link_, goes_on);
   if (!there) return;
   outbox_.meet(there->centre);
-  // The centre was set back to an older copy: it gets the missing rows. It may have older ones of a
-  // branch.
+  // The centre was set back to an older copy: it gets the missing rows. Of an unknown branch it may
+  // still have the records below.
   const std::int64_t has = std::max(there->size, outbox_.history_of(seen_).begin);
   if (has < confirmed_) goes_back_to(has);
   if (!there->notes) return noted_.reset();

@@ -44,7 +44,8 @@ std::vector<std::string> folders_of(const MachineOptions& machine) {
   return folders;
 }
 
-/// Has its own thread and connection: a slow or unreachable control delays no other.
+/// Reads probing logs from a control with its own thread and connection: a slow or unreachable
+/// control delays no other.
 class Collector final : public Worker {
  public:
   Collector(MachineOptions options, const Plant& plant)

@@ -110,9 +110,9 @@ class MqttClient::Loop {
                                    kKeepAliveSeconds);
   }
 
+  /// Uses poll instead of mosquitto_loop, which selects and cannot use descriptors above 1023. It
+  /// reads before it writes, because libmosquitto closes a connection on which a write fails.
   /// @returns an error of libmosquitto when the connection is over.
-  /// poll instead of mosquitto_loop, which selects and cannot use descriptors above 1023. It reads
-  /// before it writes, because libmosquitto closes a connection on which a write fails.
   int turn() {
     if (const int failed = carry_out_orders(); failed != MOSQ_ERR_SUCCESS) {
       const int reason = errno;
