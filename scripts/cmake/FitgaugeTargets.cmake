@@ -128,8 +128,8 @@ function(fitgauge_unity target folder)
 endfunction()
 
 # fitgauge_library(<name> [PUBLIC <targets>] [PRIVATE <targets>] [SEPARATE <regex>] [WITHOUT <regex>])
-# The room <name> from every *.cpp of the current folder but main.cpp and what matches WITHOUT. Its include root holds this folder alone,
-# so `#include "<room>/<file>.hpp"` compiles only where that room is linked.
+# The room <name> from every *.cpp of the current folder but main.cpp and what matches WITHOUT. Its include root holds
+# this folder alone, so `#include "<room>/<file>.hpp"` compiles only where that room is linked.
 function(fitgauge_library name)
   cmake_parse_arguments(arg "" "SEPARATE;WITHOUT" "PUBLIC;PRIVATE" ${ARGN})
   set(root "${CMAKE_BINARY_DIR}/include/${name}")
@@ -144,9 +144,6 @@ function(fitgauge_library name)
   target_include_directories(${name} PUBLIC "${root}")
   target_link_libraries(${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} fitgauge_options)
   target_precompile_headers(${name} REUSE_FROM precompiled)
-  if(CMAKE_BUILD_TYPE STREQUAL "Release")
-    set(unity_bytes 250000)  # seldom built in part: a tenth of the compiler's time less
-  endif()
   fitgauge_unity(${name} "${CMAKE_CURRENT_SOURCE_DIR}" SEPARATE "${arg_SEPARATE}")
 endfunction()
 
