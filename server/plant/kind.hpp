@@ -69,7 +69,7 @@ Kind kind_of(std::string_view kind) {
       members(body, *options);
       settings.follower = options->follower;
       settings.start = [options](const Plant& plant) -> std::unique_ptr<Worker> {
-        return std::make_unique<LogFollower>(options->follower, make(*options, plant), plant);
+        return follow(options->follower, make(*options, plant), plant);
       };
     } else {
       options->name = name;

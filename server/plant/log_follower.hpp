@@ -116,68 +116,7 @@ Result<Progress> begin_progress(const FollowerOptions& options, const Plant& pla
 /// order and at least once. Stores its position in the database at most a second later. Repeats a
 /// failed attempt after 1 s, 2 s, 4 s and so on, the first failure after a success at once. A
 /// writer never waits for it.
-class LogFollower final : public Worker {
- public:
-  /// Reads its start from the storage; blocks. @param plant must outlive it.
-  LogFollower(FollowerOptions options, std::unique_ptr<Outlet> outlet, const Plant& plant);
-  ~LogFollower() override;
-
-  void request_stop() override { thread_.request_stop(); }
-
- private:
-  using Time = std::chrono::steady_clock::time_point;
-  class Bell;
-
-  void run(bool& has_begun, const std::stop_token& stop);
-  bool begin();
-  /// Reads the next data, if there is room. @errors those of storage.
-  Result<void> read();
-  /// Reads the next events, if there is room.
-  Result<void> read_events();
-  /// Finds the new offsets after the values that were delivered.
-  void find_offsets(const std::stop_token& stop);
-  void take_log_end(std::int64_t end) {
-    log_end_ = end;
-    if (events_behind_ == 0 && !pending_events_.empty()) events_behind_ = end;
-  }
-  void deliver(const std::stop_token& stop);
-  /// Whether events go out now: when all measurements that were stored before them are dealt with.
-  bool has_events() const {
-    return !pending_events_.empty() && pending_.empty() && read_to_ >= events_behind_;
-  }
-  void deliver_events(const std::stop_token& stop);
-  /// Returns the number of pending measurements that go out now.
-  std::size_t ripe() const;
-  /// @returns the number of the next delivery; none while it cannot be stored.
-  std::size_t planned(std::size_t count);
-  /// @param measurements of it that went out
-  void take(const Delivery& delivery, std::size_t measurements);
-  /// Saves unless it did so less than a second ago. @returns whether nothing is left to save.
-  bool save(bool at_once);
-  void show();
-
-  const FollowerOptions options_;
-  const std::unique_ptr<Outlet> outlet_;
-  const std::shared_ptr<Bell> bell_;
-
-  // Used only by the thread.
-  Progress progress_;
-  std::int64_t read_to_ = 0;  ///< all up to here is pending or dealt with
-  std::int64_t log_end_ = 0;  ///< of the log, when it was read last
-  std::vector<Outgoing> pending_;
-  std::vector<OutgoingEvent> pending_events_;
-  /// A characteristic and its machine.
-  using Made = std::pair<std::optional<std::string>, std::optional<std::string>>;
-  std::set<Made> made_;               ///< of the values since their offsets were found
-  std::map<Made, std::string> told_;  ///< of these offsets
-  std::int64_t events_behind_ = 0;    ///< the measurement before them; 0: none is pending
-  std::chrono::seconds pause_{0};     ///< before the next attempt; 0: the last went well
-  bool repeats_at_once_ = false;      ///< a refusal: the last attempt went well
-  bool is_dirty_ = false;
-  bool cannot_read_ = false;
-  Time saved_at_{};
-
-  Thread thread_;  // last: it uses all above
-};
+std::unique_ptr<Worker> follow(FollowerOptions options, std::unique_ptr<Outlet> outlet,
+                               const Plant& plant);
 
 }  // namespace fitgauge::connections

@@ -48,13 +48,23 @@ struct ConnectionState {
 
 /// Nanoseconds since the last progress; none before the first success. Outgoing: age of the next
 /// measurement to send; incoming: time since the last success.
-std::optional<std::int64_t> lag(const ConnectionState& state, Timestamp now);
+inline std::optional<std::int64_t> lag(const ConnectionState& state, Timestamp now) {
+  const auto since = [&](Timestamp then) {
+    return std::max<std::int64_t>(now.nanoseconds - then.nanoseconds, 0);
+  };
+  if (!state.is_outgoing) {
+    return state.last_success_at ? std::optional(since(*state.last_success_at)) : std::nullopt;
+  }
+  return state.waits_since ? since(*state.waits_since) : 0;
+}
 
 /// Maximum duration of a step, unless the other side or a file blocks it.
 inline constexpr std::chrono::seconds kLongestStep{60};
 
 /// Whether the current attempt makes no progress.
-bool hangs(const ConnectionState& state, std::chrono::steady_clock::time_point now);
+inline bool hangs(const ConnectionState& state, std::chrono::steady_clock::time_point now) {
+  return state.attempt_began_at && now - state.attempt_began > kLongestStep;
+}
 
 /// A counter of all connections, by the name it has in JSON.
 struct ConnectionCounter {
@@ -140,13 +150,34 @@ class Worker {
     what(state_);
   }
   /// Reports the begin of an attempt, or of its next step, which may wait for the other side.
-  void begin_attempt();
+  void begin_attempt() {
+    change([&](ConnectionState& state) {
+      state.attempt_began_at = plant_.clock.now();
+      state.attempt_began = std::chrono::steady_clock::now();
+    });
+  }
   /// Counts an ended attempt. Logs the first failure and the first success after it.
   /// @param why reason of the failure; none: success. @param delivered something before it failed
-  void finish_attempt(const std::optional<std::string>& why, bool delivered = false);
-  /// Counts a refusal that is repeated at once: the connection is not failing yet.
-  /// @param delivered whether something went out before it
-  void pass_refusal(const std::string& why, bool delivered);
+  /// @param repeats_at_once the failure is repeated at once: the connection is not failing yet
+  void finish_attempt(const std::optional<std::string>& why, bool delivered = false,
+                      bool repeats_at_once = false) {
+    bool has_changed = false;
+    change([&](ConnectionState& state) {
+      const bool fails = repeats_at_once ? state.is_failing : why.has_value();
+      has_changed = std::exchange(state.is_failing, fails) != fails;
+      state.attempt_began_at.reset();
+      state.last_attempt_at = plant_.clock.now();
+      ++state.attempts;
+      if (why) {
+        ++state.failures;
+        state.last_error = *why;
+      }
+      if (!why || delivered) state.last_success_at = state.last_attempt_at;
+    });
+    if (!has_changed) return;
+    why ? plant_.tell("connection_failing", name_ + ": " + *why)
+        : plant_.tell("connection_recovered", name_);
+  }
 
   const Plant& plant_;
 
