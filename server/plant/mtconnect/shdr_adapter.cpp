@@ -1,9 +1,5 @@
 #include "plant/mtconnect/shdr_adapter.hpp"
 
-#include <boost/asio/ip/address.hpp>
-
-#include "service/events/event_service.hpp"
-
 namespace fitgauge::mtconnect {
 namespace {
 
@@ -13,8 +9,6 @@ using Line = std::shared_ptr<const std::string>;
 
 constexpr std::size_t kPage = 256;
 constexpr int kSendBuffer = 64 << 10;
-/// Out of descriptors, for example: agents wait in the kernel's queue for this time.
-constexpr std::chrono::milliseconds kAcceptPause{100};
 /// Counts are sent after this time without measurements.
 constexpr std::chrono::milliseconds kCountPause{200};
 /// Before the storage is asked again.
@@ -67,35 +61,18 @@ class ShdrAdapter::Loop final : public app::CommitListener,
       : options_(std::move(options)), measurements_(measurements), events_(events), clock_(clock) {}
 
   Result<void> open() {
-    const auto failed = [&](const error_code& error) {
-      return Error{ErrorCode::ListenFailed,
-                   fmt::format("cannot listen on {} port {} for SHDR: {}", options_.listen.host,
-                               options_.listen.port, error.message())};
-    };
-    error_code error;
-    const auto address = asio::ip::make_address(options_.listen.host, error);
-    if (error) return failed(error);
-    const asio::ip::tcp::endpoint endpoint(address, options_.listen.port);
-    acceptor_.open(endpoint.protocol(), error);
-    if (!error) acceptor_.set_option(http::Acceptor::reuse_address(true), error);
-    if (!error) acceptor_.bind(endpoint, error);
-    if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
-    if (!error) port_ = acceptor_.local_endpoint(error).port();
-    if (error) return failed(error);
-    accept();
+    TRY(listener_.open(options_.listen.host, options_.listen.port, " for SHDR"));
     events_.add(shared_from_this());
-    thread_ = Thread("the SHDR adapter", [this](const auto&) { io_.run(); });
     return {};
   }
 
   void stop() {
     events_.remove(shared_from_this());
-    io_.stop();
-    thread_.stop();
+    listener_.stop();
     agents_.clear();
   }
 
-  std::uint16_t port() const { return port_; }
+  std::uint16_t port() const { return listener_.port(); }
 
   void committed() override {
     if (committed_.exchange(true)) return;
@@ -111,29 +88,14 @@ class ShdrAdapter::Loop final : public app::CommitListener,
   /// Runs `work` on the thread, unless the adapter is destroyed.
   template <class Work>
   void post(Work work) {
-    asio::post(io_, [weak = weak_from_this(), work = std::move(work)]() mutable {
+    asio::post(listener_.io(), [weak = weak_from_this(), work = std::move(work)]() mutable {
       if (const auto self = weak.lock()) work(*self);
     });
   }
 
-  void accept() {
-    acceptor_.async_accept([this](error_code error, http::Socket socket) {
-      if (!error) {
-        // Missing memory here must not end the acceptance of agents.
-        guarded("an agent that connects", [&] { take_in(std::move(socket)); });
-        return accept();
-      }
-      accept_pause_.expires_after(kAcceptPause);
-      accept_pause_.async_wait([this](error_code cancelled) {
-        if (!cancelled) accept();
-      });
-    });
-  }
-
-  void take_in(http::Socket socket) {
-    error_code ignored;
-    const auto peer = socket.remote_endpoint(ignored).address().to_string();
+  void take_in(http::Socket socket, const std::string& peer) {
     if (agents_.size() >= options_.most_agents) return tell(peer, "too many agents are connected");
+    error_code ignored;
     // Waiting bytes in the kernel are bounded too.
     socket.set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);
     socket.set_option(asio::ip::tcp::no_delay(true), ignored);
@@ -254,14 +216,13 @@ class ShdrAdapter::Loop final : public app::CommitListener,
   app::MeasurementService& measurements_;
   app::EventService& events_;
   const Clock& clock_;
-  std::uint16_t port_ = 0;
   std::atomic<bool> committed_ = false;  ///< is on its way to the thread
 
-  asio::io_context io_{1};
-  http::Acceptor acceptor_{io_};
-  http::Timer accept_pause_{io_};
-  http::Timer retry_{io_};
-  http::Timer count_pause_{io_};
+  connections::TcpListener listener_{
+      "the SHDR adapter", "an agent that connects",
+      [this](http::Socket client, const std::string& peer) { take_in(std::move(client), peer); }};
+  http::Timer retry_{listener_.io()};
+  http::Timer count_pause_{listener_.io()};
   std::set<std::shared_ptr<AgentSession>> agents_;
   Phase phase_ = Phase::Idle;
   std::int64_t position_ = 0;  ///< all up to here is sent
@@ -269,7 +230,6 @@ class ShdrAdapter::Loop final : public app::CommitListener,
   bool counts_soon_ = false;
   Line newest_;
   Line counts_;
-  Thread thread_;
 };
 
 Result<std::unique_ptr<ShdrAdapter>> ShdrAdapter::start(AdapterOptions options,

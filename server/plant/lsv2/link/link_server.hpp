@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "plant/lsv2/link/payload.hpp"
+#include "plant/tcp_listener.hpp"
 
 namespace fitgauge::control_link {
 
@@ -32,25 +32,22 @@ struct LinkServerHooks {
   std::function<void(std::string_view peer, std::string_view why)> sent_away{};
 };
 
-/// Serves LSV-2 on one polling thread: enough for a hundred connections with one telegram at a
-/// time. Each uses at most two buffers of 4096 bytes and the state of its session.
+/// Serves LSV-2 on one thread: enough for a hundred connections with one telegram at a time. Each
+/// uses at most three buffers of 4096 bytes and the state of its session.
 class LinkServer {
  public:
-  /// Binds, listens and starts the thread. @errors ListenFailed.
+  /// Binds, listens and starts the thread, which ends with it. @errors ListenFailed.
   static Result<std::unique_ptr<LinkServer>> start(LinkServerOptions options,
                                                    LinkServerHooks hooks);
-  /// Closes every connection and ends the thread.
-  ~LinkServer();
-  LinkServer& operator=(LinkServer&&) = delete;  // neither copied nor moved
-
-  /// The actual port if 0 was requested.
-  std::uint16_t port() const;
+  std::uint16_t port() const { return listener_.port(); }
 
  private:
-  class Loop;
-  explicit LinkServer(std::unique_ptr<Loop> loop);
+  LinkServer(LinkServerOptions options, LinkServerHooks hooks);
 
-  std::unique_ptr<Loop> loop_;
+  const LinkServerOptions options_;
+  const LinkServerHooks hooks_;
+  std::size_t connections_ = 0;
+  connections::TcpListener listener_;  // last: it closes every connection
 };
 
 }  // namespace fitgauge::control_link
