@@ -313,7 +313,7 @@ Result<std::unique_ptr<virtual_control::VirtualControl>> start_control(
     log_warning("control_client_sent_away", fmt::format("{}: {}", peer, why));
   };
   auto control = TRY(
-      virtual_control::VirtualControl::start(std::move(options), services.files, services.runs));
+      virtual_control::start_virtual_control(std::move(options), services.files, services.runs));
   log_info("control_listening",
            fmt::format("{} on port {}, {}", config.control_model, control->port(),
                        config.control_write ? "writable" : "read-only"));

@@ -70,7 +70,7 @@ Result<std::unique_ptr<app::Application>> open_or_wait(const app::ApplicationOpt
                                                        const std::string& port_file);
 
 /// Opens the LSV-2 port of the configuration; null if it has none. The control must be destroyed
-/// before `services`. @errors as VirtualControl::start.
+/// before `services`. @errors as start_virtual_control.
 Result<std::unique_ptr<virtual_control::VirtualControl>> start_control(
     const Config& config, const api::Services& services);
 

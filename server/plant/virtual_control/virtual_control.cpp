@@ -1,4 +1,4 @@
-#include "plant/virtual_control/virtual_control.hpp"
+#include "plant/virtual_control/control_conversation.hpp"
 
 namespace fitgauge::virtual_control {
 namespace {
@@ -13,8 +13,6 @@ constexpr ControlModel kModels[] = {
      .is_itnc = true,
      .asks_plc_password = false},
 };
-
-std::string mdi_program() { return "BEGIN PGM $MDI MM\nEND PGM $MDI MM\n"; }
 
 std::string tool_table(const machine::Setup& setup) {
   std::string text =
@@ -41,9 +39,11 @@ Result<void> bring(app::FileService& files, std::string_view path, const std::st
 /// The files of every control of that model, and the example programs.
 Result<void> bring_files(app::FileService& files, const ControlModel& model,
                          const machine::Setup& setup) {
+  // The iTNC 530 has the control's own files in the root, in capitals.
   std::vector<std::pair<std::string, std::string>> brought{
-      {std::string(model.mdi_program()), mdi_program()},
-      {std::string(model.tool_table()), tool_table(setup)}};
+      {model.is_itnc ? "TNC:\\$MDI.H" : "TNC:\\nc_prog\\$mdi.h",
+       "BEGIN PGM $MDI MM\nEND PGM $MDI MM\n"},
+      {model.is_itnc ? "TNC:\\TOOL.T" : "TNC:\\table\\tool.t", tool_table(setup)}};
   for (const ExampleProgram& example : example_programs()) {
     brought.emplace_back(fmt::format("TNC:\\nc_prog\\{}", example.path), example.text);
   }
@@ -66,7 +66,7 @@ void keep_files(app::FileService& files, const std::shared_ptr<app::ActiveRun>& 
 
 std::span<const ControlModel> control_models() { return kModels; }
 
-Result<std::unique_ptr<VirtualControl>> VirtualControl::start(VirtualControlOptions options,
+Result<std::unique_ptr<VirtualControl>> start_virtual_control(VirtualControlOptions options,
                                                               app::FileService& files,
                                                               app::RunService& runs) {
   const auto* const model = std::ranges::find(kModels, options.model, &ControlModel::name);
@@ -79,18 +79,18 @@ Result<std::unique_ptr<VirtualControl>> VirtualControl::start(VirtualControlOpti
     if (run) keep_files(files, *run);
     return run;
   };
-  std::unique_ptr<VirtualControl> control(new VirtualControl(
-      {.model = *model,
-       .is_writable = options.is_writable,
-       .disk = VirtualDisk(files, runs),
-       .machine = MachineView(runs, std::move(options.setup), std::move(start))}));
-  ControlState& state = control->state_;
-  state.parameters.emplace(model->language_parameter(), model->language());
-  control->server_ = TRY(control_link::LinkServer::start(
+  const auto state = std::make_shared<ControlState>(
+      ControlState{.model = *model,
+                   .is_writable = options.is_writable,
+                   .disk = VirtualDisk(files, runs),
+                   .machine = MachineView(runs, std::move(options.setup), std::move(start))});
+  // The dialog language.
+  state->parameters.emplace(model->is_itnc ? "7230.0" : "CfgDisplayLanguage.ncLanguage",
+                            model->is_itnc ? "0" : "ENGLISH");
+  return LinkServer::start(
       std::move(options.link),
-      {.converse = [&state] { return std::make_unique<ControlConversation>(state); },
-       .sent_away = std::move(options.sent_away)}));
-  return control;
+      {.converse = [state] { return std::make_unique<ControlConversation>(*state); },
+       .sent_away = std::move(options.sent_away)});
 }
 
 }  // namespace fitgauge::virtual_control

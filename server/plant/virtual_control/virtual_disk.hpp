@@ -1,28 +1,57 @@
 #pragma once
 
-#include "nc/machine/machine_setup.hpp"
 #include "nc/program/control_disk.hpp"
-#include "plant/lsv2/link/messages.hpp"
 #include "plant/lsv2/link/payload.hpp"
 #include "service/files/file_service.hpp"
 #include "service/runs/run_service.hpp"
 
 namespace fitgauge::virtual_control {
 
+using control_link::ControlError;
+using control_link::ControlResult;
+using interpreter::ControlPath;
+
 inline constexpr std::string_view kRoot = "TNC:\\";
+
+inline std::string absolute(std::string_view text, std::string_view directory) {
+  std::string path(text);
+  std::ranges::replace(path, '/', '\\');
+  if (path.find(':') != std::string::npos) return path;
+  if (path.starts_with('\\')) return std::string(kRoot.substr(0, 4)) + path;
+  return std::string(directory) + path;
+}
 
 /// A file as a client names it: absolute, or relative to its directory. `/` separates as `\` does.
 /// @param directory ends with `\`
 /// @errors BadFileName: another drive, a path out of `TNC:\`, no file name.
-control_link::ControlResult<interpreter::ControlPath> file_path(std::string_view text,
-                                                                std::string_view directory);
+inline ControlResult<ControlPath> file_path(std::string_view text, std::string_view directory) {
+  auto path = ControlPath::parse(absolute(text, directory));
+  if (!path) return ControlError::BadFileName;
+  return *std::move(path);
+}
 
 /// A directory with its last `\`; the disk decides if it exists. @errors BadFileName.
-control_link::ControlResult<std::string> directory_path(std::string_view text,
-                                                        std::string_view directory);
+inline ControlResult<std::string> directory_path(std::string_view text,
+                                                 std::string_view directory) {
+  std::string path = absolute(text, directory);
+  while (path.ends_with('\\')) path.pop_back();
+  if (ascii_iequals(path, kRoot.substr(0, 4))) return std::string(kRoot);
+  const auto parsed = ControlPath::parse(path);
+  if (!parsed) return ControlError::BadFileName;
+  return parsed->text() + "\\";
+}
 
-/// The parent of a directory; of the root the root.
-std::string_view parent_of(std::string_view directory);
+/// A text as it travels in a mode that sends lines: the byte at the end of a line is NUL.
+inline std::string lines_on_the_wire(std::string_view bytes) {
+  std::string wire;
+  wire.reserve(bytes.size());
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const bool is_crlf = bytes[i] == '\r' && i + 1 < bytes.size() && bytes[i + 1] == '\n';
+    if (is_crlf) ++i;
+    wire += bytes[i] == '\n' ? '\0' : bytes[i];
+  }
+  return wire;
+}
 
 /// A file or a directory as the control lists it.
 struct DiskEntry {
@@ -38,45 +67,194 @@ struct DiskEntry {
 /// storage.
 class VirtualDisk {
  public:
-  using Path = interpreter::ControlPath;
-  template <class T>
-  using Answer = control_link::ControlResult<T>;
-
   VirtualDisk(app::FileService& files, app::RunService& runs) : files_(files), runs_(runs) {}
 
-  bool has_directory(std::string_view directory);
+  bool has_directory(std::string_view directory) {
+    if (is_every_controls(directory)) return true;
+    const std::string key = ascii_lower(directory);
+    const auto made = made_.lower_bound(key);
+    if (made != made_.end() && made->first.starts_with(key)) return true;
+    const auto below = files_below(directory);
+    return below && !below->empty();
+  }
+
   /// Lists entries by name, directories first. @errors NoDirectory.
-  Answer<std::vector<DiskEntry>> list(std::string_view directory);
+  ControlResult<std::vector<DiskEntry>> list(std::string_view directory) {
+    if (!has_directory(directory)) return ControlError::NoDirectory;
+    const auto below = TRY(files_below(directory));
+    std::map<std::string, DiskEntry> directories;
+    const auto add_directory = [&](std::string_view path, Timestamp time) {
+      const std::string_view rest = path.substr(directory.size());
+      const std::string_view name = rest.substr(0, rest.find('\\'));
+      if (name.empty() || name.size() == rest.size()) return;
+      DiskEntry& entry = directories[ascii_lower(name)];
+      if (entry.name.empty()) entry.name = name;
+      entry.is_directory = true;
+      entry.modified_at = std::max(entry.modified_at, time);
+    };
+    const std::string key = ascii_lower(directory);
+    for (const std::string_view path : kEveryControls) {
+      if (ascii_lower(path).starts_with(key)) add_directory(path, {});
+    }
+    for (const auto& [made, path] : made_) {
+      if (made.starts_with(key)) add_directory(path, {});
+    }
+    for (const auto& [path, entry] : below) add_directory(entry.name, entry.modified_at);
+    std::vector<DiskEntry> entries;
+    for (auto& [name, entry] : directories) entries.push_back(std::move(entry));
+    for (const auto& [path, entry] : below) {
+      if (entry.name.find('\\', directory.size()) == std::string::npos) {
+        entries.push_back(without_folder(entry));
+      }
+    }
+    return entries;
+  }
+
   /// @errors NoDirectory: its parent; FileExists; NoSpace.
-  Answer<void> make_directory(std::string_view directory);
+  ControlResult<void> make_directory(std::string_view directory) {
+    if (has_directory(directory)) return ControlError::FileExists;
+    if (!has_directory(parent_of(directory))) return ControlError::NoDirectory;
+    if (made_bytes_ + directory.size() > kMostMadeBytes) return ControlError::NoSpace;
+    keep_directory(directory);
+    return {};
+  }
+
   /// @errors NoDirectory, DirectoryNotEmpty, InUse: one of every control.
-  Answer<void> remove_directory(std::string_view directory);
+  ControlResult<void> remove_directory(std::string_view directory) {
+    if (is_every_controls(directory)) return ControlError::InUse;
+    const auto entries = TRY(list(directory));
+    if (!entries.empty()) return ControlError::DirectoryNotEmpty;
+    // The directory above may have been there only for this one.
+    if (!is_every_controls(parent_of(directory))) keep_directory(parent_of(directory));
+    made_bytes_ -= made_.erase(ascii_lower(directory)) * directory.size();
+    return {};
+  }
 
   /// @errors NoFile.
-  Answer<DiskEntry> find(const Path& path);
+  ControlResult<DiskEntry> find(const ControlPath& path) {
+    const auto entries = TRY(files_below(path.text()));
+    const auto found = entries.find(ascii_lower(path.text()));
+    if (found == entries.end()) return ControlError::NoFile;
+    return without_folder(found->second);
+  }
+
   /// @errors NoFile.
-  Answer<std::shared_ptr<const std::string>> read(const Path& path);
+  ControlResult<std::string> read(const ControlPath& path) {
+    const auto written = run_files();
+    if (const auto found = written.find(path.key()); found != written.end()) {
+      return found->second.first->bytes;
+    }
+    auto file =
+        TRY(wait_for<app::DiskFile>([&](auto done) { files_.read(path, std::move(done)); }));
+    return std::move(file.bytes);
+  }
+
   /// Writes a new file or replaces one. @errors NoDirectory, NoSpace.
-  Answer<void> write(const Path& path, std::string_view bytes);
+  ControlResult<void> write(const ControlPath& path, std::string_view bytes) {
+    if (!has_directory(path.directory())) return ControlError::NoDirectory;
+    TRY(wait_for<bool>(
+        [&](auto done) { files_.write(path, bytes, std::nullopt, {}, std::move(done)); }));
+    hide(path);
+    return {};
+  }
+
   /// @errors NoFile.
-  Answer<void> remove(const Path& path);
-  /// @errors NoFile, NoDirectory, FileExists, NoSpace.
-  Answer<void> copy(const Path& source, const Path& target);
-  /// @errors as copy.
-  Answer<void> rename(const Path& source, const Path& target) {
-    TRY(copy(source, target));
-    return remove(source);
+  ControlResult<void> remove(const ControlPath& path) {
+    TRY(find(path));
+    const auto removed = wait_for<bool>(
+        [&](auto done) { files_.remove(path, std::nullopt, {}, {}, std::move(done)); });
+    // A file of only the run: nothing is stored of it.
+    if (!removed && removed.error() != ControlError::NoFile) return removed.error();
+    hide(path);
+    keep_directory(path.directory());
+    return {};
+  }
+
+  /// Copies a file, or renames it. @errors NoFile, NoDirectory, FileExists, NoSpace.
+  ControlResult<void> copy(const ControlPath& source, const ControlPath& target, bool moves) {
+    const auto bytes = TRY(read(source));
+    if (find(target)) return ControlError::FileExists;
+    TRY(write(target, bytes));
+    return moves ? remove(source) : ControlResult<void>();
   }
 
  private:
-  using RunFiles = std::shared_ptr<const std::vector<interpreter::WrittenFile>>;
+  /// Maximum wait for the files of a running program.
+  static constexpr std::chrono::milliseconds kPatience{50};
+  /// Maximum bytes of the names of directories that clients make.
+  static constexpr std::size_t kMostMadeBytes = std::size_t{1} << 20;
+  static constexpr std::string_view kEveryControls[] = {kRoot, "TNC:\\nc_prog\\", "TNC:\\table\\"};
+
+  static bool is_every_controls(std::string_view directory) {
+    return std::ranges::any_of(
+        kEveryControls, [&](std::string_view each) { return ascii_iequals(each, directory); });
+  }
+  /// The parent of a directory; of the root the root.
+  static std::string_view parent_of(std::string_view directory) {
+    directory.remove_suffix(1);
+    const std::string_view parent = directory.substr(0, directory.rfind('\\') + 1);
+    return parent.empty() ? kRoot : parent;
+  }
+  static DiskEntry without_folder(DiskEntry entry) {
+    entry.name.erase(0, entry.name.rfind('\\') + 1);
+    return entry;
+  }
+
+  /// Waits for a function that calls `done` on another thread.
+  template <class T, class Begin>
+  static ControlResult<T> wait_for(const Begin& begin) {
+    auto result = wait_for_result<T>(begin);
+    if (result) return *std::move(result);
+    switch (result.error().code) {
+      case ErrorCode::FileUnknown: return ControlError::NoFile;
+      case ErrorCode::StorageBusy:
+      case ErrorCode::StorageUnavailable: return ControlError::NoSpace;
+      default: return ControlError::Failed;
+    }
+  }
+
   /// Files of the newest run that no client has replaced or removed.
-  std::map<std::string, std::pair<const interpreter::WrittenFile*, Timestamp>> run_files();
+  std::map<std::string, std::pair<const interpreter::WrittenFile*, Timestamp>> run_files() {
+    std::map<std::string, std::pair<const interpreter::WrittenFile*, Timestamp>> found;
+    const auto run = runs_.newest();
+    if (run == nullptr) return found;
+    if (run->id() != run_) hidden_.clear();
+    run_ = run->id();
+    newest_files_ = run->look(app::Look::StateAndFiles, kPatience).files;
+    if (newest_files_ == nullptr) return found;
+    for (const interpreter::WrittenFile& file : *newest_files_) {
+      if (hidden_.contains(file.path.key())) continue;
+      found.emplace(file.path.key(), std::pair(&file, run->created_at()));
+    }
+    return found;
+  }
+
   /// Every file whose path begins so, by key.
-  Answer<std::map<std::string, DiskEntry>> files_below(std::string_view prefix);
-  void keep_directory(std::string_view directory);
+  ControlResult<std::map<std::string, DiskEntry>> files_below(std::string_view prefix) {
+    const auto stored = TRY(wait_for<std::vector<app::DiskFile>>(
+        [&](auto done) { files_.list(std::string(prefix), std::move(done)); }));
+    std::map<std::string, DiskEntry> entries;
+    for (const app::DiskFile& file : stored) {
+      entries[ascii_lower(file.path)] = {
+          .name = file.path, .size = file.size, .modified_at = file.modified_at};
+    }
+    const std::string below = ascii_lower(prefix);
+    for (const auto& [key, written] : run_files()) {
+      const auto& [file, time] = written;
+      if (!ascii_lower(key).starts_with(below)) continue;
+      entries[ascii_lower(key)] = {.name = file->path.text(),
+                                   .size = static_cast<std::int64_t>(file->bytes.size()),
+                                   .modified_at = time};
+    }
+    return entries;
+  }
+
+  void keep_directory(std::string_view directory) {
+    if (made_bytes_ + directory.size() > kMostMadeBytes) return;
+    if (made_.emplace(ascii_lower(directory), directory).second) made_bytes_ += directory.size();
+  }
   /// Uses the stored file from now on, not the run's file.
-  void hide(const Path& path) {
+  void hide(const ControlPath& path) {
     if (run_files().contains(path.key())) hidden_.insert(path.key());
   }
 
@@ -84,72 +262,10 @@ class VirtualDisk {
   app::RunService& runs_;
   std::map<std::string, std::string> made_;  ///< by key: as spelled
   std::size_t made_bytes_ = 0;
-  RunFiles newest_files_;  ///< that run_files points into
-  std::int64_t run_ = 0;   ///< whose files `hidden_` names
+  /// The files that run_files() points into.
+  std::shared_ptr<const std::vector<interpreter::WrittenFile>> newest_files_;
+  std::int64_t run_ = 0;  ///< the run whose files `hidden_` names
   std::set<std::string> hidden_;
 };
-
-/// Starts a stored program on the control's machine, and waits until it is queued.
-/// @errors as POST /v1/runs.
-using StartProgram =
-    std::function<Result<std::shared_ptr<app::ActiveRun>>(const interpreter::ControlPath&)>;
-
-/// The machine for DNC telegrams: the machine of the newest run, running or finished; before the
-/// first run, at rest as in its setup. Used by one thread.
-class MachineView {
- public:
-  MachineView(app::RunService& runs, machine::Setup setup, StartProgram start)
-      : runs_(runs), setup_(std::move(setup)), start_(std::move(start)) {}
-
-  control_link::Axes axes();
-  control_link::Mode mode() {
-    newest();
-    return mode_;
-  }
-  control_link::ProgramState state();
-  control_link::ProgramStack program();
-  control_link::SpindleTool tool();
-  std::vector<interpreter::RunMessage> errors() { return look().errors; }
-
-  /// A key counts after a program that has begun before it.
-  void set_mode(control_link::Mode mode) {
-    newest();
-    mode_ = mode;
-  }
-  /// @errors WrongMode while a program runs; NoFile; BadFormat: it has errors; InUse: too many
-  /// wait.
-  control_link::ControlResult<std::shared_ptr<app::ActiveRun>> start(
-      const interpreter::ControlPath& program);
-  /// Ends what runs, soon.
-  void stop() {
-    if (const auto run = newest(); run != nullptr) runs_.cancel(run);
-  }
-
- private:
-  std::shared_ptr<app::ActiveRun> newest();
-  app::LiveState look();
-
-  app::RunService& runs_;
-  const machine::Setup setup_;
-  const StartProgram start_;
-  control_link::Mode mode_ = control_link::Mode::Manual;
-  std::int64_t seen_run_ = 0;
-  std::shared_ptr<app::ActiveRun> started_;  ///< the last run that a client has started
-};
-
-/// The PLC of a machine without one: every cell is 0 and every string empty.
-control_link::Parameters control_parameters();
-
-/// `count` bytes from `address`. @errors BadAddress.
-control_link::ControlResult<control_link::Memory> read_memory(std::uint32_t address,
-                                                              std::uint8_t count);
-
-/// A value by its data path, `\PLC\memory\W\2`: the type of the path, and 0.
-/// @errors WrongParameter: a path of another tree.
-control_link::ControlResult<control_link::DataValue> read_data_path(std::string_view path);
-
-/// A bitmap (BMP) of 640 by 480 in the colour of the program's state, because the simulation has no
-/// screen: green runs, red failed, grey else.
-std::string screen_dump(control_link::ProgramState state);
 
 }  // namespace fitgauge::virtual_control

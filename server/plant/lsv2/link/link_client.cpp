@@ -8,6 +8,8 @@
 
 #include <cerrno>
 
+#include "base/number.hpp"
+
 namespace fitgauge::control_link {
 namespace {
 
@@ -32,15 +34,6 @@ LinkResult<Addresses> resolve(const ControlAddress& address) {
   return LinkFailure(Kind::NotReached,
                      fmt::format("host not found: {}: {}", address.host, gai_strerror(failed)));
 }
-
-/// The buffers that C_CC can ask for, the largest first.
-struct BufferCommand {
-  std::size_t bytes;
-  std::uint16_t command;
-};
-constexpr std::array kBuffers{BufferCommand{4096, 7}, BufferCommand{3072, 6},
-                              BufferCommand{2048, 5}, BufferCommand{1024, 3},
-                              BufferCommand{512, 4}};
 
 /// A block is shorter than the buffer by these bytes, as in other peers.
 constexpr std::size_t kBlockHead = kHeadBytes + 2;
@@ -97,9 +90,8 @@ std::optional<ControlAddress> parse_control_address(std::string_view text) {
   });
   if (!is_host) return std::nullopt;
   if (port.empty()) return address;
-  const auto read = std::from_chars(port.data(), port.data() + port.size(), address.port);
-  const bool is_port = read.ec == std::errc() && read.ptr == port.data() + port.size();
-  return is_port && address.port != 0 ? std::optional(address) : std::nullopt;
+  address.port = read_number<std::uint16_t>(port).value_or(0);
+  return address.port != 0 ? std::optional(address) : std::nullopt;
 }
 
 std::string to_text(const ControlAddress& address) {
@@ -107,13 +99,13 @@ std::string to_text(const ControlAddress& address) {
   return fmt::format("{}{}{}:{}", is_v6 ? "[" : "", address.host, is_v6 ? "]" : "", address.port);
 }
 
-LinkSocket::LinkSocket(LinkClientOptions options) : options_(std::move(options)) {
+LinkClient::LinkClient(LinkClientOptions options) : options_(std::move(options)) {
   reader_.set_buffer(kLongestAnswer);
 }
 
-LinkResult<LinkSocket> LinkSocket::connect(LinkClientOptions options) {
-  LinkSocket link(std::move(options));
-  const auto addresses = TRY(resolve(link.address()));
+LinkResult<LinkClient> LinkClient::connect(LinkClientOptions options) {
+  LinkClient link(std::move(options));
+  const auto addresses = TRY(resolve(link.options_.address));
   const Time deadline = std::chrono::steady_clock::now() + link.options_.connect_timeout;
   std::string why = "it does not answer";
   for (const addrinfo* at = addresses.get(); at != nullptr; at = at->ai_next) {
@@ -142,10 +134,10 @@ LinkResult<LinkSocket> LinkSocket::connect(LinkClientOptions options) {
   return LinkFailure(Kind::NotReached,
                      fmt::format("the control {} cannot be reached: {}; check that it is switched "
                                  "on and that its network setting allows LSV-2",
-                                 to_text(link.address()), why));
+                                 to_text(link.options_.address), why));
 }
 
-LinkResult<void> LinkSocket::wait(short events, Time deadline) const {
+LinkResult<void> LinkClient::wait(short events, Time deadline) const {
   for (;;) {
     if (options_.stop.stop_requested()) return LinkFailure(Kind::Stopped, "stopped");
     const auto left =
@@ -158,7 +150,7 @@ LinkResult<void> LinkSocket::wait(short events, Time deadline) const {
   }
 }
 
-LinkResult<void> LinkSocket::send(const Telegram& telegram) {
+LinkResult<void> LinkClient::send(const Telegram& telegram) {
   const std::string bytes = framed(telegram);
   const Time deadline = std::chrono::steady_clock::now() + options_.answer_timeout;
   for (std::size_t sent = 0; sent < bytes.size();) {
@@ -175,7 +167,7 @@ LinkResult<void> LinkSocket::send(const Telegram& telegram) {
   return {};
 }
 
-LinkResult<Telegram> LinkSocket::receive() {
+LinkResult<Telegram> LinkClient::receive() {
   const Time deadline = std::chrono::steady_clock::now() + options_.answer_timeout;
   for (;;) {
     auto telegram = reader_.next();
@@ -199,8 +191,8 @@ LinkResult<Telegram> LinkClient::ask_telegram(const Telegram& request) {
         fmt::format("{} bytes are too long for a telegram of {}", request.payload.size(), buffer_),
         static_cast<std::uint8_t>(ControlError::BadFileName));
   }
-  TRY(socket_.send(request));
-  auto answer = socket_.receive();
+  TRY(send(request));
+  auto answer = receive();
   if (!answer || answer->name != Refused::kName) return answer;
   const auto refused = decode<Refused>(*answer);
   if (!refused) return unexpected(*answer);
@@ -236,7 +228,7 @@ LinkResult<void> LinkClient::agree_buffer() {
     if (parameters.error().kind == Kind::Refused) return {};
     return parameters.error();
   }
-  for (const auto& [bytes, command] : kBuffers) {
+  for (const auto& [bytes, command] : kBufferCommands) {
     if (bytes > parameters->largest_buffer) continue;
     const auto agreed = tell(SystemCommand{.command = command});
     if (agreed) {
@@ -302,7 +294,7 @@ LinkResult<void> LinkClient::upload(const std::string& path, std::string_view by
   for (std::size_t at = 0; at < wire.size(); at += step)
     TRY(tell(FileBlock{.bytes = {wire.substr(at, step)}}));
   if (acknowledged) return tell(EndOfData{});
-  TRY(socket_.send(encode(EndOfData{})));
+  TRY(send(encode(EndOfData{})));
   TRY(file_information(path));
   return {};
 }

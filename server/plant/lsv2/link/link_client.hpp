@@ -57,34 +57,6 @@ struct LinkClientOptions {
   std::stop_token stop{};  ///< ends every wait within a tenth of a second
 };
 
-/// Sends and receives whole telegrams; blocks, used by one thread. Unusable after a failure.
-class LinkSocket {
- public:
-  /// @errors NotReached, Stopped
-  static LinkResult<LinkSocket> connect(LinkClientOptions options);
-
-  /// @errors Broken, Stopped
-  LinkResult<void> send(const Telegram& telegram);
-  /// @errors Broken: closed, silent for too long, or no telegram; Stopped
-  LinkResult<Telegram> receive();
-
-  const ControlAddress& address() const { return options_.address; }
-
- private:
-  using Time = std::chrono::steady_clock::time_point;
-
-  explicit LinkSocket(LinkClientOptions options);
-  /// Waits until the socket can be read or written. @errors Broken, Stopped
-  LinkResult<void> wait(short events, Time deadline) const;
-  LinkFailure broken(std::string_view what) const {
-    return {LinkFailure::Kind::Broken, fmt::format("{} {}", to_text(options_.address), what)};
-  }
-
-  LinkClientOptions options_;
-  Descriptor socket_;
-  TelegramReader reader_;
-};
-
 struct ControlIdentity {
   std::string control{};      ///< TNC640
   std::string nc_software{};  ///< 340595 08 SP1
@@ -96,15 +68,12 @@ enum class Transfer : bool { Lines, Binary };
 
 /// One session with a control: each call sends a telegram and waits for its response. Used by one
 /// thread. Without agree_buffer() telegrams have at most 256 bytes. Paths are the control's. Every
-/// call fails with Broken or Stopped like the socket, and with Refused; only after a refusal the
-/// session continues.
+/// call fails with Broken (closed, silent for too long, or no telegram), Stopped or Refused; only
+/// after a refusal the session continues.
 class LinkClient {
  public:
   /// @errors NotReached, Stopped
-  static LinkResult<LinkClient> connect(LinkClientOptions options) {
-    auto socket = TRY(LinkSocket::connect(std::move(options)));
-    return LinkClient(std::move(socket));
-  }
+  static LinkResult<LinkClient> connect(LinkClientOptions options);
 
   /// INSPECT, FILE, DNC, ...
   LinkResult<void> login(std::string_view name);
@@ -142,17 +111,26 @@ class LinkClient {
   std::size_t buffer() const { return buffer_; }
 
  private:
-  explicit LinkClient(LinkSocket socket) : socket_(std::move(socket)) {}
+  using Time = std::chrono::steady_clock::time_point;
 
+  explicit LinkClient(LinkClientOptions options);
+  /// Waits until the socket can be read or written. @errors Broken, Stopped
+  LinkResult<void> wait(short events, Time deadline) const;
+  LinkResult<void> send(const Telegram& telegram);
+  LinkResult<Telegram> receive();
   /// @errors Refused for T_ER.
   LinkResult<Telegram> ask_telegram(const Telegram& request);
+  LinkFailure broken(std::string_view what) const {
+    return {LinkFailure::Kind::Broken, fmt::format("{} {}", to_text(options_.address), what)};
+  }
   LinkFailure unexpected(const Telegram& telegram) const {
-    return {LinkFailure::Kind::Broken,
-            fmt::format("{} answers with {}, which does not belong to the request",
-                        to_text(socket_.address()), word(telegram.name))};
+    return broken(
+        fmt::format("answers with {}, which does not belong to the request", word(telegram.name)));
   }
 
-  LinkSocket socket_;
+  LinkClientOptions options_;
+  Descriptor socket_;
+  TelegramReader reader_;
   std::size_t buffer_ = kSmallestBuffer;
 };
 

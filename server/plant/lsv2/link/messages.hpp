@@ -67,6 +67,15 @@ struct ReadSystemInformation {
   std::uint32_t which = 0;
   FITGAUGE_TELEGRAM("R_CI", m.which)
 };
+/// A buffer that C_CC can agree on.
+struct BufferCommand {
+  std::size_t bytes;
+  std::uint16_t command;
+};
+/// The largest first.
+inline constexpr std::array<BufferCommand, 5> kBufferCommands{
+    {{4096, 7}, {3072, 6}, {2048, 5}, {1024, 3}, {512, 4}}};
+
 struct SystemCommand {
   static constexpr std::uint16_t kScreenDump = 12;
   static constexpr std::uint16_t kAcknowledgeEnd = 19;  ///< of an upload
@@ -88,16 +97,16 @@ using MakeDirectory = OnPath<telegram_name("C_DM")>;
 using DeleteDirectory = OnPath<telegram_name("C_DD")>;
 using ReadFileInformation = OnPath<telegram_name("R_FI")>;
 using DeleteFile = OnPath<telegram_name("C_FD")>;
-struct CopyFile {
+/// A request with two paths.
+template <TelegramName letters>
+struct FromTo {
+  static constexpr TelegramName kName = letters;
   std::string source{};
   std::string target{};
-  FITGAUGE_TELEGRAM("C_FC", m.source, m.target)
+  static auto fields(auto& m) { return std::tie(m.source, m.target); }
 };
-struct RenameFile {
-  std::string source{};
-  std::string target{};
-  FITGAUGE_TELEGRAM("C_FR", m.source, m.target)
-};
+using CopyFile = FromTo<telegram_name("C_FC")>;
+using RenameFile = FromTo<telegram_name("C_FR")>;
 /// Without `binary`, as older clients send it, lines travel as in mode 0.
 struct Upload {
   std::string path{};
@@ -226,24 +235,22 @@ struct DirectoryInformation {
   std::string path{};  ///< ends with a backslash
   FITGAUGE_TELEGRAM("S_DI", m.free_bytes, m.attributes, m.more_attributes, m.path)
 };
-struct FileInformation {
+/// A file or a directory, or a drive, `TNC:`.
+template <TelegramName letters>
+struct FileEntry {
   static constexpr std::uint32_t kChangeable = 0x02;
   static constexpr std::uint32_t kDirectory = 0x20;
   static constexpr std::uint32_t kDirectoryOfItnc = 0x40;
+  static constexpr TelegramName kName = letters;
   std::uint32_t bytes = 0;
   std::uint32_t unix_time = 0;
   std::uint32_t flags = 0;
   std::string name{};
-  FITGAUGE_TELEGRAM("S_FI", m.bytes, m.unix_time, m.flags, m.name)
+  static auto fields(auto& m) { return std::tie(m.bytes, m.unix_time, m.flags, m.name); }
 };
-/// One entry of a directory, or a drive, `TNC:`.
-struct DirectoryEntry {
-  std::uint32_t bytes = 0;
-  std::uint32_t unix_time = 0;
-  std::uint32_t flags = 0;
-  std::string name{};
-  FITGAUGE_TELEGRAM("S_DR", m.bytes, m.unix_time, m.flags, m.name)
-};
+using FileInformation = FileEntry<telegram_name("S_FI")>;
+/// One entry of a directory.
+using DirectoryEntry = FileEntry<telegram_name("S_DR")>;
 struct Memory {
   Bytes bytes{};
   FITGAUGE_TELEGRAM("S_MB", m.bytes)

@@ -1,9 +1,13 @@
 #include "plant/lsv2/link/payload.hpp"
 
+#include <boost/endian/conversion.hpp>
+
 #include "formats/sheet/text_encoding.hpp"
 
 namespace fitgauge::control_link {
 namespace {
+
+using boost::endian::endian_reverse;
 
 /// The next character of UTF-8 in Latin-1, else `?`; moves `text` past it.
 char latin1_character(std::string_view& text) {
@@ -45,10 +49,7 @@ void PayloadWriter::put(const AxisTexts& axes) {
 }
 
 void PayloadWriter::put(LittleEndianDouble number) {
-  const auto bits = std::bit_cast<std::uint64_t>(number.value);
-  for (unsigned shift = 0; shift < 64; shift += 8) {
-    put(static_cast<std::uint8_t>(bits >> shift & 0xFFU));
-  }
+  put(endian_reverse(std::bit_cast<std::uint64_t>(number.value)));
 }
 
 std::string_view PayloadReader::take(std::size_t count) {
@@ -89,12 +90,8 @@ void PayloadReader::get(AxisTexts& axes) {
 
 void PayloadReader::get(LittleEndianDouble& number) {
   std::uint64_t bits = 0;
-  for (unsigned shift = 0; shift < 64; shift += 8) {
-    std::uint8_t byte = 0;
-    get(byte);
-    bits |= std::uint64_t{byte} << shift;
-  }
-  number.value = std::bit_cast<double>(bits);
+  get(bits);
+  number.value = std::bit_cast<double>(endian_reverse(bits));
 }
 
 std::string word(TelegramName name) {
