@@ -71,10 +71,21 @@ struct SomeOf {
             std::set<std::string, std::less<>>& to) const;
 };
 
-/// A list of `least` to `most` items. `take` makes an item a value or an error.
+/// Adds the value that `take` has made of the item at `place`, or reports its error.
+template <class Made, class T>
+void add_made(api::FieldReader& fields, std::string_view name, const auto& place, Made made,
+              std::vector<T>& to) {
+  if (made) {
+    to.push_back(*std::move(made));
+  } else {
+    fields.errors().add(made.error().code, pointer_to(fields.at(name), place),
+                        made.error().message);
+  }
+}
+
+/// A list of 1 to `most` items. `take` makes an item a value or an error.
 template <class Take>
 struct Each {
-  std::size_t least;
   std::size_t most;
   std::string_view wanted;  ///< follows the bounds in the message
   std::string item;
@@ -85,27 +96,19 @@ struct Each {
   bool read(api::FieldReader& fields, std::string_view name, std::vector<T>& to) const {
     const JsonValue* const list = fields.array(name);
     if (list == nullptr) return false;
-    if (list->items.size() < least || list->items.size() > most) {
-      const auto number =
-          least == 0 ? fmt::format("at most {}", most) : fmt::format("{} to {}", least, most);
-      fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} {}", number, wanted));
+    if (list->items.empty() || list->items.size() > most) {
+      fields.report(ErrorCode::FieldInvalid, name, fmt::format("1 to {} {}", most, wanted));
       return false;
     }
     to.clear();
     for (std::size_t i = 0; i < list->items.size(); ++i) {
-      auto made = take(list->items[i]);
-      if (made) {
-        to.push_back(*std::move(made));
-      } else {
-        fields.errors().add(made.error().code, pointer_to(fields.at(name), i),
-                            made.error().message);
-      }
+      add_made(fields, name, i, take(list->items[i]), to);
     }
     return true;
   }
 };
 template <class Take>
-Each(std::size_t, std::size_t, std::string_view, std::string, Take) -> Each<Take>;
+Each(std::size_t, std::string_view, std::string, Take) -> Each<Take>;
 
 /// An object of at most `most` members. `take` makes a name and its value a value or an error.
 template <class Take>
@@ -126,13 +129,7 @@ struct EachMember {
       return false;
     }
     for (const auto& [key, value] : object->members) {
-      auto made = take(key, value);
-      if (made) {
-        to.push_back(*std::move(made));
-      } else {
-        fields.errors().add(made.error().code, pointer_to(fields.at(name), key),
-                            made.error().message);
-      }
+      add_made(fields, name, key, take(key, value), to);
     }
     return true;
   }

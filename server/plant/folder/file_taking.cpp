@@ -10,6 +10,15 @@
 namespace fitgauge::connections {
 namespace {
 
+/// Measurements of a file as for /v1/measurements, with room for http::Request::kBodyPadding.
+struct FileRows {
+  static constexpr std::size_t kMostBytes = std::size_t{48} << 20;
+
+  std::string media_type{};
+  std::string text{};
+  std::vector<std::uint32_t> lines{};  ///< of the file, for each row; empty: they are the same
+};
+
 constexpr std::size_t kMostAppended = std::size_t{8} << 20;  ///< by one call of append()
 
 aqdef::LimitsOfClass limits_by(const iso286::ToleranceTables& tables) {
@@ -97,6 +106,37 @@ bool is_dfq(std::string_view file_name) {
   return name.ends_with(".dfq") || name.ends_with(".dfx");
 }
 
+/// Reads a table, NDJSON, DFQ or QIF by its name, piece by piece, and keeps only its rows.
+/// @param description of a DFX: its DFD; else null.
+/// @errors BodyTooLarge; those of ShopRows, NdjsonRows, MeasurementCsv and QifRows
+Result<FileRows> read_file_rows(const FolderInOptions& options,
+                                const iso286::ToleranceTables& tables, std::string_view file_name,
+                                const RestingFile& file, const RestingFile* description) {
+  FileRows rows{.media_type = sheet::is_ndjson(file_name) ? "application/x-ndjson" : "text/csv"};
+  // Unused room needs no memory; a growing text would exist twice.
+  rows.text.reserve(FileRows::kMostBytes + kMostAppended + http::Request::kBodyPadding);
+  const auto appended = is_dfq(file_name) ? append_dfq(options, tables, file, description, rows)
+                        : qif::is_qif(file_name)      ? append_qif(options, tables, file, rows)
+                        : sheet::is_ndjson(file_name) ? append_ndjson(options, file, rows)
+                                                      : append_table(options, file, rows);
+  if (!appended) return appended.error();
+  return rows;
+}
+
+/// An error of the rows with the lines of the file.
+Error at_lines_of(const FileRows& rows, Error error) {
+  for (Error& field : error.details) {
+    for (Error& place : field.details) {
+      std::size_t line = 0;
+      std::from_chars(place.where.data(), place.where.data() + place.where.size(), line);
+      if (line >= 2 && line - 2 < rows.lines.size()) {
+        place.where = std::to_string(rows.lines[line - 2]);
+      }
+    }
+  }
+  return error;
+}
+
 constexpr std::size_t kMostTold = 100;
 
 /// Not for a client: the response counts the stored rows.
@@ -116,66 +156,18 @@ class CountedRows final : public app::Rendering {
 
 }  // namespace
 
-bool is_values_alone(std::string_view file_name) {
-  return ascii_lower(file_name).ends_with(".dfx");
-}
-
-bool is_description(std::string_view file_name) { return ascii_lower(file_name).ends_with(".dfd"); }
-
-Result<FileRows> read_file_rows(const FolderInOptions& options,
-                                const iso286::ToleranceTables& tables, std::string_view file_name,
-                                const RestingFile& file, const RestingFile* description) {
-  FileRows rows{.media_type = sheet::is_ndjson(file_name) ? "application/x-ndjson" : "text/csv"};
-  // Unused room needs no memory; a growing text would exist twice.
-  rows.text.reserve(FileRows::kMostBytes + kMostAppended + http::Request::kBodyPadding);
-  const auto appended = is_dfq(file_name) ? append_dfq(options, tables, file, description, rows)
-                        : qif::is_qif(file_name)      ? append_qif(options, tables, file, rows)
-                        : sheet::is_ndjson(file_name) ? append_ndjson(options, file, rows)
-                                                      : append_table(options, file, rows);
-  if (!appended) return appended.error();
-  return rows;
-}
-
-Error at_lines_of(const FileRows& rows, Error error) {
-  for (Error& field : error.details) {
-    for (Error& place : field.details) {
-      std::size_t line = 0;
-      std::from_chars(place.where.data(), place.where.data() + place.where.size(), line);
-      if (line >= 2 && line - 2 < rows.lines.size()) {
-        place.where = std::to_string(rows.lines[line - 2]);
-      }
-    }
-  }
-  return error;
-}
-
-bool is_of_storage(const Error& error) {
-  switch (error.code) {
-    case ErrorCode::StorageBusy:
-    case ErrorCode::StorageUnavailable:
-    case ErrorCode::StorageCorrupt:
-    case ErrorCode::ShuttingDown:
-    case ErrorCode::TablesInconsistent:
-    case ErrorCode::IdempotencyInProgress:
-    case ErrorCode::Internal: return true;
-    default: return false;
-  }
-}
-
-Result<std::optional<TakenFile>> take_file(const FolderInOptions& options, const Plant& plant,
-                                           std::string_view file_name, const RestingFile& file,
-                                           const RestingFile* description) {
+Result<std::optional<std::size_t>> take_file(const FolderInOptions& options, const Plant& plant,
+                                             std::string_view file_name, const RestingFile& file,
+                                             const RestingFile* description) {
   const auto tables = TRY(plant.tables.tables());
   Sha256 digest;
-  for (const RestingFile* const part : {description, &file}) {
-    if (part == nullptr) continue;
-    TRY(part->add_to(digest));
-  }
+  if (description != nullptr) TRY(description->add_to(digest));
+  TRY(file.add_to(digest));
   const std::string key = to_hex(digest.finish());
   const auto rows = read_file_rows(options, *tables, file_name, file, description);
   const bool is_unchanged =
       file.is_unchanged() && (description == nullptr || description->is_unchanged());
-  if (!is_unchanged) return std::optional<TakenFile>();
+  if (!is_unchanged) return std::optional<std::size_t>();
   if (!rows) return rows.error();
   const auto gauges = plant.gauges.book();
   const app::IdempotencyScope scope{.caller = options.name,
@@ -204,7 +196,7 @@ Result<std::optional<TakenFile>> take_file(const FolderInOptions& options, const
       },
       scope, counted);
   if (!stored) return stored.error();
-  return TakenFile{.was_taken_before = counted.count() == 0, .measurements = counted.count()};
+  return std::optional(counted.count());
 }
 
 std::string told(std::string_view file_name, const Error& error) {

@@ -4,7 +4,7 @@
 #include <sys/inotify.h>
 
 #include "base/thread.hpp"
-#include "http/request.hpp"
+#include "plant/kind.hpp"
 
 namespace fitgauge::connections {
 namespace {
@@ -13,6 +13,27 @@ constexpr int kStopSliceMs = 100;  ///< how soon a stop is seen
 constexpr std::size_t kInotifyBuffer = 16'384;
 constexpr int kWaitsForDescription = 6;  ///< looks that a DFX waits for its DFD
 
+/// Whether a file has values and no description: a DFX.
+bool is_values_alone(std::string_view name) { return ascii_lower(name).ends_with(".dfx"); }
+/// Whether it is the description of such a file: a DFD.
+bool is_description(std::string_view name) { return ascii_lower(name).ends_with(".dfd"); }
+
+/// Whether an error is one of the storage, not of the file.
+bool is_of_storage(const Error& error) {
+  switch (error.code) {
+    case ErrorCode::StorageBusy:
+    case ErrorCode::StorageUnavailable:
+    case ErrorCode::StorageCorrupt:
+    case ErrorCode::ShuttingDown:
+    case ErrorCode::TablesInconsistent:
+    case ErrorCode::IdempotencyInProgress:
+    case ErrorCode::Internal: return true;
+    default: return false;
+  }
+}
+
+/// Stores the files of a folder, each once, and moves them to its folder `done`, or with a text
+/// that has line and remedy to `failed`.
 class FolderIn final : public Worker {
  public:
   FolderIn(FolderInOptions options, const Plant& plant)
@@ -84,7 +105,7 @@ class FolderIn final : public Worker {
     const auto listed = folder->list([&](const std::string& name) {
       const auto status = is_wanted(name) ? folder->look(name) : std::nullopt;
       if (!status || !S_ISREG(status->st_mode)) return true;
-      Seen seen{.look = look_of(*status), .since = at};
+      Seen seen{.look = Look::of(*status), .since = at};
       const auto known = seen_.find(name);
       if (known != seen_.end() && known->second.look == seen.look) seen = known->second;
       const bool is_whole = moved_in_.contains(name) || at - seen.since >= options_.rest;
@@ -146,12 +167,12 @@ class FolderIn final : public Worker {
       return std::nullopt;
     }
     change([&](ConnectionState& state) {
-      state.measurements += (*taken)->measurements;
-      if ((*taken)->was_taken_before) return;
+      if (**taken == 0) return;
+      state.measurements += **taken;
       ++state.files;
       state.bytes += static_cast<std::uint64_t>(size);
     });
-    if ((*taken)->was_taken_before) {
+    if (**taken == 0) {
       plant_.tell("file_taken_before", fmt::format("{}: {}: the same bytes are stored; it is moved "
                                                    "to done",
                                                    options_.name, name));
@@ -232,12 +253,86 @@ class FolderIn final : public Worker {
   Thread thread_;  // last: it uses all above
 };
 
+constexpr std::size_t kMostWords = 200;
+constexpr std::size_t kLongestGlob = 100;
+
+bool is_field(std::string_view name) {
+  return std::ranges::any_of(api::kRowFields,
+                             [&](const api::RowField& field) { return field.name == name; });
+}
+
+Result<std::string> read_glob(const JsonValue& item) {
+  const bool is_glob = item.is(JsonValue::Kind::String) && !item.text.empty() &&
+                       item.text.size() <= kLongestGlob && item.text.find('/') == std::string::npos;
+  if (is_glob) return item.text;
+  return invalid_field("must be a file name without a folder (* and ? allowed), such as *.csv");
+}
+
+/// An object of texts; `fault` returns the fault of one.
+template <class Fault>
+auto texts_by(Fault fault) {
+  using Word = std::pair<std::string, std::string>;
+  const auto take = [fault](std::string_view key, const JsonValue& value) -> Result<Word> {
+    const bool is_text = value.is(JsonValue::Kind::String) || value.is(JsonValue::Kind::Number);
+    if (!is_text) return Error{ErrorCode::FieldType, "must be a text"};
+    if (std::string why = fault(key, value.text); !why.empty())
+      return invalid_field(std::move(why));
+    return Word(key, value.text);
+  };
+  return EachMember{kMostWords, "", api::schema::text(), take};
+}
+
+std::string fault_of_column(std::string_view, std::string_view to) {
+  if (to.empty() || to == "date" || to == "time" || is_field(to)) return {};
+  return fmt::format("unknown field {}; an empty text ignores the column",
+                     first_characters(to, 100));
+}
+
+std::string fault_of_constant(std::string_view field, std::string_view) {
+  if (is_field(field) && field != "measured_mm") return {};
+  return fmt::format("{} must not be set for all rows", first_characters(field, 100));
+}
+
+Result<sheet::Encoding> read_encoding(std::string_view word) {
+  if (const auto encoding = sheet::encoding_from_word(word)) return *encoding;
+  return invalid_field("encoding must be one of: auto, utf-8, utf-16, windows-1252");
+}
+
+Result<aqdef::LengthUnit> read_unit(std::string_view name) {
+  if (const auto unit = aqdef::length_unit(name)) return *unit;
+  return invalid_field("length_unit must be one of: mm, \xC2\xB5m, cm, m, inch");
+}
+
 }  // namespace
+
+template <class V>
+void members(V& v, FolderInOptions& options) {
+  v.member("folder", options.folder, path_for(v), "Absolute path on this machine");
+  v.optional("names", options.names, Each{20, "names", api::schema::text(kLongestGlob), read_glob},
+             "Names of files, with * and ?, such as *.csv");
+  v.optional("map", options.csv.columns, texts_by(fault_of_column),
+             "Name of a column and its field, date or time; empty ignores the column");
+  v.optional("set", options.csv.constants, texts_by(fault_of_constant),
+             "A field and its value for every row");
+  v.optional("time_zone", options.csv.zone, By{0, sheet::TimeZone::load},
+             "Time zone of times without an offset, such as Europe/Berlin");
+  v.optional("encoding", options.csv.encoding, By{0, read_encoding},
+             "Encoding: auto, utf-8, utf-16 or windows-1252 (default: auto)");
+  v.optional("other_columns", options.csv.leaves_out_others, Choice{"refuse", "leave_out"},
+             "Columns without a field: refuse the file, or leave_out (default: refuse)");
+  v.optional("length_unit", options.length_unit, By{0, read_unit},
+             "Unit of a DFQ without a unit: mm, inch");
+  v.optional("interval_s", options.interval, Within{1, 3600},
+             "Seconds between two scans of the folder (default: 10)");
+  v.optional("rest_s", options.rest, Within{1, 3600},
+             "Seconds without a change of a file's size and time (default: 2)");
+}
 
 std::unique_ptr<Worker> make(const FolderInOptions& options, const Plant& plant) {
   return std::make_unique<FolderIn>(options, plant);
 }
 
+/// Whether the folder can be read, and files moved in it.
 ConnectionTest test_of(const FolderInOptions& options, const Plant&, const std::stop_token&) {
   const auto check = [&]() -> Result<void> {
     const auto folder = TRY(Folder::open(options.folder));
@@ -250,5 +345,7 @@ ConnectionTest test_of(const FolderInOptions& options, const Plant&, const std::
   if (!check) return {.ok = false, .detail = check.error().message};
   return {.ok = true, .detail = "the folder can be read, and files moved in it"};
 }
+
+Kind folder_in_kind() { return kind_of<FolderInOptions>("folder_in"); }
 
 }  // namespace fitgauge::connections

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 
 #include "base/digest.hpp"
@@ -29,13 +31,6 @@ struct FolderInOptions {
   std::size_t most_entries = 100'000;  ///< of one look
 };
 
-/// Stores the files of a folder, each once, and moves them to its folder `done`, or with a text
-/// that has line and remedy to `failed`. @param plant must outlive it.
-std::unique_ptr<Worker> make(const FolderInOptions& options, const Plant& plant);
-
-/// Whether the folder can be read, and files moved in it.
-ConnectionTest test_of(const FolderInOptions& options, const Plant&, const std::stop_token&);
-
 /// Outward state of a file.
 struct Look {
   std::int64_t size = 0;
@@ -43,9 +38,13 @@ struct Look {
   std::uint64_t inode = 0;
 
   friend bool operator==(const Look&, const Look&) = default;
+  static Look of(const struct stat& status) {
+    return {.size = status.st_size,
+            .changed_ns = std::int64_t{status.st_mtim.tv_sec} * kNanosecondsPerSecond +
+                          status.st_mtim.tv_nsec,
+            .inode = status.st_ino};
+  }
 };
-
-Look look_of(const struct stat& status);
 
 /// A file of a folder. It is read piece by piece, as often as necessary from its beginning. The
 /// content counts only if it is_unchanged() afterwards.
@@ -53,14 +52,42 @@ class RestingFile {
  public:
   /// @returns nothing if it is gone, or not a file. @errors StorageUnavailable: it cannot be read.
   static Result<std::optional<RestingFile>> open(const Folder& folder, const std::string& name,
-                                                 const Look& look);
+                                                 const Look& look) {
+    auto file = TRY(folder.read(name));
+    if (!file) return std::optional<RestingFile>();
+    return std::optional(RestingFile(name, *std::move(file), look));
+  }
 
   /// The bytes from the begin on. @errors StorageUnavailable. The file outlives it.
-  Read from_begin() const;
+  Read from_begin() const {
+    return [this, at = off_t{0}](std::span<char> into) mutable -> Result<std::size_t> {
+      for (;;) {
+        const ssize_t count = pread(file_.get(), into.data(), into.size(), at);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) {
+          return Error{ErrorCode::StorageUnavailable,
+                       fmt::format("{} cannot be read: {}", name_, std::strerror(errno))};
+        }
+        at += count;
+        return static_cast<std::size_t>(count);
+      }
+    };
+  }
   /// @errors StorageUnavailable
-  Result<void> add_to(Sha256& digest) const;
+  Result<void> add_to(Sha256& digest) const {
+    const Read read = from_begin();
+    std::string piece(std::size_t{1} << 16, '\0');
+    for (;;) {
+      const auto count = TRY(read(piece));
+      if (count == 0) return {};
+      digest.update(std::string_view(piece).substr(0, count));
+    }
+  }
   /// Returns whether the file looks as it did when it was opened.
-  bool is_unchanged() const;
+  bool is_unchanged() const {
+    struct stat status {};
+    return fstat(file_.get(), &status) == 0 && Look::of(status) == look_;
+  }
 
  private:
   RestingFile(std::string name, Descriptor file, const Look& look)
@@ -71,49 +98,17 @@ class RestingFile {
   Look look_;
 };
 
-/// Whether a file has values and no description: a DFX.
-bool is_values_alone(std::string_view file_name);
-/// Whether it is the description of such a file: a DFD.
-bool is_description(std::string_view file_name);
-
-/// Measurements of a file as for /v1/measurements, with room for http::Request::kBodyPadding.
-struct FileRows {
-  static constexpr std::size_t kMostBytes = std::size_t{48} << 20;
-
-  std::string media_type{};
-  std::string text{};
-  std::vector<std::uint32_t> lines{};  ///< of the file, for each row; empty: they are the same
-};
-
-/// Reads a table, NDJSON, DFQ or QIF by its name, piece by piece, and keeps only its rows.
-/// @param description of a DFX: its DFD; else null.
-/// @errors BodyTooLarge; those of ShopRows, NdjsonRows, MeasurementCsv and QifRows
-Result<FileRows> read_file_rows(const FolderInOptions& options,
-                                const iso286::ToleranceTables& tables, std::string_view file_name,
-                                const RestingFile& file, const RestingFile* description);
-
-/// An error of the rows with the lines of the file.
-Error at_lines_of(const FileRows& rows, Error error);
-
-/// The result of a file.
-struct TakenFile {
-  bool was_taken_before = false;
-  std::size_t measurements = 0;
-};
-
 /// Stores the measurements of a file, all rows or none. The same bytes are stored once for a
 /// connection: the transaction of the rows stores their digest for ever. Blocks.
 /// @param description of a DFX: its DFD; else null.
-/// @returns nothing if the file has changed.
+/// @returns how many it has stored, 0 if the same bytes were stored before; nothing if the file has
+///   changed.
 /// @errors StorageBusy, StorageUnavailable, ShuttingDown: try again; any other: the file is wrong.
-Result<std::optional<TakenFile>> take_file(const FolderInOptions& options, const Plant& plant,
-                                           std::string_view file_name, const RestingFile& file,
-                                           const RestingFile* description);
+Result<std::optional<std::size_t>> take_file(const FolderInOptions& options, const Plant& plant,
+                                             std::string_view file_name, const RestingFile& file,
+                                             const RestingFile* description);
 
 /// The errors of a file for its writer: lines and remedies.
 std::string told(std::string_view file_name, const Error& error);
-
-/// Whether an error is one of the storage, not of the file.
-bool is_of_storage(const Error& error);
 
 }  // namespace fitgauge::connections

@@ -16,6 +16,21 @@ using log_reader::MeasuringLog;
 using log_reader::PatternResult;
 using log_reader::Role;
 
+/// One log, or one result of an FN 16 file. Owns its measurements' texts, so it must not move.
+struct CollectedLog {
+  CollectedLog& operator=(CollectedLog&&) = delete;  // neither copied nor moved
+
+  std::string text{};
+  bool has_time = false;                         ///< the control's, in its text
+  std::string key{};                             ///< unique to this log of this machine and path
+  std::vector<app::Measurement> measurements{};  ///< empty: it has no length
+  std::size_t values_kept = 0;  ///< angles and figures of axes, they stay in the file
+  bool is_new = false;          ///< set by the writer before its answer
+
+  app::TableCatalog::Tables tables{};
+  std::deque<std::string> texts{};
+};
+
 /// Content of a file.
 struct Collected {
   std::vector<std::shared_ptr<CollectedLog>> logs{};
@@ -259,21 +274,20 @@ constexpr std::size_t kMostUnderWay = 16;
 /// Not for a client: it shows that the log was not stored before.
 class NewLog final : public app::Rendering {
  public:
-  explicit NewLog(std::shared_ptr<bool> is_new) : is_new_(std::move(is_new)) {}
+  explicit NewLog(std::shared_ptr<CollectedLog> log) : log_(std::move(log)) {}
   void add(std::span<const app::Measurement>, std::string_view) override {}
   app::Answer finish() override {
-    *is_new_ = true;
+    log_->is_new = true;
     return {.status = 201, .content_type = "text/plain", .location = {}, .body = {}};
   }
 
  private:
-  std::shared_ptr<bool> is_new_;
+  const std::shared_ptr<CollectedLog> log_;
 };
 
 /// A log on its way to the disk.
 struct UnderWay {
   std::shared_ptr<CollectedLog> log;
-  std::shared_ptr<bool> is_new;  ///< set by the writer before the answer
   std::future<Result<app::Answer>> stored;
 };
 
@@ -285,13 +299,12 @@ UnderWay store(app::MeasurementService& measurements, const MachineOptions& mach
                                     .key = log->key,
                                     .body = log->text,
                                     .is_kept_for_ever = true};
-  auto is_new = std::make_shared<bool>(false);
   auto promise = std::make_shared<std::promise<Result<app::Answer>>>();
   auto future = promise->get_future();
   measurements.record(
-      log->measurements, scope, [is_new] { return std::make_unique<NewLog>(is_new); },
+      log->measurements, scope, [log] { return std::make_unique<NewLog>(log); },
       [promise, log](Result<app::Answer> answer) { promise->set_value(std::move(answer)); });
-  return {std::move(log), std::move(is_new), std::move(future)};
+  return {std::move(log), std::move(future)};
 }
 
 /// Stores the file unless it is stored unchanged.
@@ -323,7 +336,7 @@ Result<Taken> take_logs(const Plant& plant, const MachineOptions& machine, const
     const auto stored = next.stored.get();
     if (!stored) {
       failed = stored.error();
-    } else if (*next.is_new) {
+    } else if (next.log->is_new) {
       taken.measurements += next.log->measurements.size();
       taken.values_kept += next.log->values_kept;
     }

@@ -37,28 +37,6 @@ struct MachineOptions {
   const std::string& machine_name() const { return machine && !machine->empty() ? *machine : name; }
 };
 
-/// Reads probing logs from a control over LSV-2. It logs in as INSPECT and FILE, and only lists and
-/// reads. An unreachable machine is tried again after twice the time, up to ten minutes.
-/// @param plant must outlive it.
-std::unique_ptr<Worker> make(const MachineOptions& machine, const Plant& plant);
-
-/// Logs in and lists the watched folders once. Waits.
-ConnectionTest test_of(const MachineOptions& machine, const Plant&, const std::stop_token& stop);
-
-/// One log, or one result of an FN 16 file. Owns its measurements' texts, so it must not move.
-struct CollectedLog {
-  CollectedLog& operator=(CollectedLog&&) = delete;  // neither copied nor moved
-
-  std::string text{};
-  bool has_time = false;                         ///< the control's, in its text
-  std::string key{};                             ///< unique to this log of this machine and path
-  std::vector<app::Measurement> measurements{};  ///< empty: it has no length
-  std::size_t values_kept = 0;  ///< angles and figures of axes, they stay in the file
-
-  app::TableCatalog::Tables tables{};
-  std::deque<std::string> texts{};
-};
-
 /// Results of a file.
 struct Taken {
   std::uint64_t logs = 0;          ///< read, whether new or not

@@ -44,8 +44,9 @@ std::vector<std::string> folders_of(const MachineOptions& machine) {
   return folders;
 }
 
-/// Reads probing logs from a control with its own thread and connection: a slow or unreachable
-/// control delays no other.
+/// Reads probing logs from a control over LSV-2, with its own thread and connection: a slow or
+/// unreachable control delays no other. It logs in as INSPECT and FILE, and only lists and reads.
+/// An unreachable machine is tried again after twice the time, up to ten minutes.
 class Collector final : public Worker {
  public:
   Collector(MachineOptions options, const Plant& plant)
@@ -191,26 +192,13 @@ Result<WatchedPath> read_watched(const JsonValue& item) {
                   item.text));
 }
 
-struct Patterns {
-  std::string schema(api::Side side) const {
-    return api::schema::array(api::schema_of<NamedPattern>(side));
-  }
-  bool read(api::FieldReader& fields, std::string_view name, std::vector<NamedPattern>& to) const {
-    const JsonValue* const list = fields.array(name);
-    if (list == nullptr) return false;
-    if (list->items.size() <= kMostPatterns)
-      return api::List<NamedPattern>{}.read(fields, name, to);
-    fields.report(ErrorCode::FieldInvalid, name, fmt::format("at most {} patterns", kMostPatterns));
-    return false;
-  }
-};
-
 }  // namespace
 
 std::unique_ptr<Worker> make(const MachineOptions& machine, const Plant& plant) {
   return std::make_unique<Collector>(machine, plant);
 }
 
+/// Logs in and lists the watched folders once. Waits.
 ConnectionTest test_of(const MachineOptions& machine, const Plant&, const std::stop_token& stop) {
   auto control = connect(machine, stop);
   if (!control) return {.ok = false, .detail = control.error().message};
@@ -234,14 +222,19 @@ template <class V>
 void members(V& v, MachineOptions& machine) {
   v.member("address", machine.address, By{0, read_address}, "host or host:port of the control");
   v.member("paths", machine.paths,
-           Each{1, 100, "paths of the control, such as TNC:\\nc_prog\\TCHPR*.TXT",
-                api::schema::text(), read_watched},
+           Each{100, "paths of the control, such as TNC:\\nc_prog\\TCHPR*.TXT", api::schema::text(),
+                read_watched},
            "Watched paths: TNC:\\nc_prog\\TCHPR*.TXT");
   v.optional("machine", machine.machine, api::Text{200},
              "Machine of the measurements (default: the name of the connection)");
   v.optional("interval_s", machine.interval, Within{1, 86'400},
              "Time between two attempts (default: 60)");
-  v.optional("patterns", machine.patterns, Patterns{}, "Pattern for files of FN 16");
+  v.optional("patterns", machine.patterns, "Pattern for files of FN 16");
+  v.check([&](api::FieldReader& fields) {
+    if (machine.patterns.size() <= kMostPatterns) return;
+    fields.report(ErrorCode::FieldInvalid, "patterns",
+                  fmt::format("at most {} patterns", kMostPatterns));
+  });
 }
 
 Kind lsv2_kind() { return kind_of<MachineOptions>("lsv2"); }

@@ -116,7 +116,7 @@ void members(V& v, WebhookOptions& options) {
              "JSON with {{field}} of the event (default: the whole event)");
   event_members(v, options.follower);
   follower_members(v, options.follower);
-  v.optional("secrets", options.keys, Each{1, kMostKeys, "secrets", api::schema::text(), read_key},
+  v.optional("secrets", options.keys, Each{kMostKeys, "secrets", api::schema::text(), read_key},
              "1 to 4 secrets, each whsec_ and 24 to 64 bytes in base64; each signs (default: the "
              "stored secrets)");
   v.check([](api::FieldReader& fields) {
