@@ -24,6 +24,14 @@ void initialise_library() {
   static_cast<void>(once);
 }
 
+auto publishing(MqttMessage message) {
+  return [message = std::move(message)](mosquitto* handle, int* number) {
+    return mosquitto_publish(handle, number, message.topic.c_str(),
+                             static_cast<int>(message.payload.size()), message.payload.data(),
+                             message.qos, message.retain);
+  };
+}
+
 std::size_t bytes_of(const MqttMessage& message) {
   return sizeof message + message.topic.size() + message.payload.size();
 }
@@ -63,21 +71,18 @@ class MqttClient::Loop {
       ended = turn();
       is_late = !client_.is_connected() && std::chrono::steady_clock::now() > began + kConnectTime;
     }
-    const std::string address = to_text(client_.broker_.address);
+    std::string why = fmt::format(": {}", mosquitto_strerror(ended));
     if (!refusal_.empty()) {
-      end(fmt::format("the broker {}: {}", address, refusal_));
+      why = ": " + refusal_;
     } else if (is_late) {
-      end(fmt::format("the broker {} does not answer", address));
+      why = " does not answer";
     } else if (ended == MOSQ_ERR_ERRNO) {
-      end(fmt::format("the broker {} cannot be reached: {}", address,
-                      std::strerror(errno != 0 ? errno : socket_error)));
+      why = fmt::format(" cannot be reached: {}", std::strerror(errno != 0 ? errno : socket_error));
     } else if (ended == MOSQ_ERR_TLS) {
-      end(fmt::format("the broker {}: TLS fails: {}", address,
-                      told_.empty() ? mosquitto_strerror(ended) : told_));
-    } else {
-      end(fmt::format("the broker {}: {}", address, mosquitto_strerror(ended)));
+      why = ": TLS fails: " + (told_.empty() ? mosquitto_strerror(ended) : told_);
     }
-    if (!is_leaving_ && !stop.stop_requested()) client_.wake();
+    client_.end(fmt::format("the broker {}{}", to_text(client_.broker_.address), why));
+    if (!client_.is_leaving_ && !stop.stop_requested()) client_.wake();
   }
 
  private:
@@ -155,20 +160,7 @@ class MqttClient::Loop {
 
   int carry_out(const Order& order) {
     int mid = 0;
-    int done = MOSQ_ERR_SUCCESS;
-    if (const auto* const publish = std::get_if<Publish>(&order.what)) {
-      const MqttMessage& message = publish->message;
-      done = mosquitto_publish(handle_.get(), &mid, message.topic.c_str(),
-                               static_cast<int>(message.payload.size()), message.payload.data(),
-                               message.qos, message.retain);
-    } else if (const auto* const subscribe = std::get_if<Subscribe>(&order.what)) {
-      done = mosquitto_subscribe(handle_.get(), &mid, subscribe->topic.c_str(), subscribe->qos);
-    } else if (const auto* const unsubscribe = std::get_if<Unsubscribe>(&order.what)) {
-      done = mosquitto_unsubscribe(handle_.get(), &mid, unsubscribe->topic.c_str());
-    } else {
-      is_leaving_ = true;
-      return mosquitto_disconnect(handle_.get());
-    }
+    const int done = order.call(handle_.get(), &mid);
     if (done == MOSQ_ERR_INVAL || done == MOSQ_ERR_PAYLOAD_SIZE ||
         done == MOSQ_ERR_MALFORMED_UTF8 || done == MOSQ_ERR_OVERSIZE_PACKET ||
         done == MOSQ_ERR_QOS_NOT_SUPPORTED || done == MOSQ_ERR_RETAIN_NOT_SUPPORTED) {
@@ -206,13 +198,6 @@ class MqttClient::Loop {
 
   void settled(Ticket ticket, int outcome) {
     if (ticket != 0) change([&] { client_.settled_.emplace(ticket, outcome); });
-  }
-
-  void end(std::string why) {
-    change([&] {
-      client_.state_ = State::Ended;
-      client_.failure_ = std::move(why);
-    });
   }
 
   template <class Change>
@@ -285,7 +270,6 @@ class MqttClient::Loop {
   std::map<int, int> early_;       ///< settled before that number was known
   std::string told_{};             ///< the last error that the library has logged
   std::string refusal_{};          ///< of the broker
-  bool is_leaving_ = false;
 };
 
 MqttClient::MqttClient(Broker broker, std::optional<MqttMessage> will, std::function<void()> wake)
@@ -303,13 +287,15 @@ void MqttClient::wake() const noexcept { guarded("a listener of an MQTT connecti
 /// The whole life of the thread.
 void MqttClient::run(const std::optional<MqttMessage>& will, const std::stop_token& stop) {
   if (guarded("an MQTT connection", [&] { Loop(*this, will).run(stop); })) return;
-  {
-    const std::lock_guard lock(mutex_);
-    state_ = State::Ended;
-    failure_ = "a defect of fitgauge ended the connection";
-    changed_.notify_all();
-  }
+  end("a defect of fitgauge ended the connection");
   if (!stop.stop_requested()) wake();
+}
+
+void MqttClient::end(std::string why) {
+  const std::lock_guard lock(mutex_);
+  state_ = State::Ended;
+  failure_ = std::move(why);
+  changed_.notify_all();
 }
 
 MqttClient::~MqttClient() {
@@ -327,24 +313,27 @@ std::optional<std::string> MqttClient::wait_connected(const std::stop_token& sto
                           : failure_;
 }
 
-template <class What>
-MqttClient::Ticket MqttClient::order(What what, bool has_outcome) {
+MqttClient::Ticket MqttClient::order(Call call, bool has_outcome) {
   const std::lock_guard lock(mutex_);
   const Ticket ticket = has_outcome ? ++last_ticket_ : 0;
-  orders_.push_back({ticket, std::move(what)});
+  orders_.push_back({ticket, std::move(call)});
   eventfd_write(event_, 1);
   return ticket;
 }
 
 MqttClient::Ticket MqttClient::publish(MqttMessage message) {
-  return order(Publish{std::move(message)});
+  return order(publishing(std::move(message)));
 }
-void MqttClient::send(MqttMessage message) { order(Publish{std::move(message)}, false); }
-MqttClient::Ticket MqttClient::subscribe(std::string topic, int qos) {
-  return order(Subscribe{std::move(topic), qos});
+void MqttClient::send(MqttMessage message) { order(publishing(std::move(message)), false); }
+MqttClient::Ticket MqttClient::subscribe(std::string topic) {
+  return order([topic = std::move(topic)](mosquitto* handle, int* number) {
+    return mosquitto_subscribe(handle, number, topic.c_str(), 1);
+  });
 }
 MqttClient::Ticket MqttClient::unsubscribe(std::string topic) {
-  return order(Unsubscribe{std::move(topic)});
+  return order([topic = std::move(topic)](mosquitto* handle, int* number) {
+    return mosquitto_unsubscribe(handle, number, topic.c_str());
+  });
 }
 
 std::optional<int> MqttClient::wait_settled(Ticket ticket, std::chrono::milliseconds most,
@@ -366,7 +355,8 @@ std::optional<MqttMessage> MqttClient::take_arrived() {
 }
 
 void MqttClient::leave() {
-  order(Leave{}, false);
+  is_leaving_ = true;
+  order([](mosquitto* handle, int*) { return mosquitto_disconnect(handle); }, false);
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, std::stop_token(), kLeaveTime,
                     [this] { return state_ != State::Connected; });

@@ -56,7 +56,7 @@ class MqttClient {
   /// Sends in this order. Messages on a lost connection are never settled. The outcome of each is
   /// kept until wait_settled() takes it.
   [[nodiscard]] Ticket publish(MqttMessage message);
-  [[nodiscard]] Ticket subscribe(std::string topic, int qos);
+  [[nodiscard]] Ticket subscribe(std::string topic);
   [[nodiscard]] Ticket unsubscribe(std::string topic);
   /// Sends in the same order a message whose outcome nobody waits for.
   void send(MqttMessage message);
@@ -74,27 +74,18 @@ class MqttClient {
   void leave();
 
  private:
-  struct Publish {
-    MqttMessage message;
-  };
-  struct Subscribe {
-    std::string topic;
-    int qos;
-  };
-  struct Unsubscribe {
-    std::string topic;
-  };
-  struct Leave {};
+  /// Calls the library, which numbers what it sends. @returns its error
+  using Call = std::function<int(mosquitto*, int* number)>;
   struct Order {
     Ticket ticket;  ///< 0: nobody waits
-    std::variant<Publish, Subscribe, Unsubscribe, Leave> what;
+    Call call;
   };
   class Loop;
 
   void run(const std::optional<MqttMessage>& will, const std::stop_token& stop);
   void wake() const noexcept;
-  template <class What>
-  Ticket order(What what, bool has_outcome = true);
+  void end(std::string why);
+  Ticket order(Call call, bool has_outcome = true);
 
   const Broker broker_;
   const std::function<void()> wake_;
@@ -109,6 +100,7 @@ class MqttClient {
   std::map<Ticket, int> settled_;
   std::deque<MqttMessage> arrived_;
   std::size_t arrived_bytes_ = 0;
+  std::atomic<bool> is_leaving_ = false;
 
   Thread thread_;  // last: it uses all above
 };

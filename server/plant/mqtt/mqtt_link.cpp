@@ -9,38 +9,20 @@ using app::Measurement;
 
 constexpr std::size_t kLongest = 500;
 
-/// Fields of a topic other than the texts of a measurement.
-struct OtherName {
-  std::string_view name;
-  std::string (*of)(const Measurement& measurement);
-};
-constexpr OtherName kOtherNames[] = {
-    {"verdict", [](const Measurement& m) { return std::string(word(m.result.verdict)); }},
-    {"source", [](const Measurement& m) { return std::string(word(m.source)); }},
-    {"tolerance_class",
-     [](const Measurement& m) { return std::string(m.class_name.value_or("")); }},
-    {"caller", [](const Measurement& m) { return std::string(m.caller.value_or("")); }},
-};
+/// A name that a topic may have, and its text.
+using NamedText = std::pair<std::string_view, std::string_view>;
 
-std::optional<std::string> value_of(const Measurement& measurement, std::string_view name) {
+std::vector<NamedText> texts_of(const Measurement& measurement) {
+  std::vector<NamedText> texts;
   for (const app::MeasurementField& field : app::kLabels) {
-    if (field.name == name && name != "comment")
-      return std::string((measurement.*field.text).value_or(""));
+    if (field.name == "comment") continue;
+    texts.emplace_back(field.name, (measurement.*field.text).value_or(""));
   }
-  for (const OtherName& other : kOtherNames) {
-    if (other.name == name) return other.of(measurement);
-  }
-  return std::nullopt;
-}
-
-std::string names() {
-  std::string all;
-  for (const app::MeasurementField& field : app::kLabels) {
-    if (field.name != "comment") all += fmt::format("{{{}}}, ", field.name);
-  }
-  for (const OtherName& other : kOtherNames) all += fmt::format("{{{}}}, ", other.name);
-  all.resize(all.size() - 2);
-  return all;
+  texts.emplace_back("verdict", word(measurement.result.verdict));
+  texts.emplace_back("source", word(measurement.source));
+  texts.emplace_back("tolerance_class", measurement.class_name.value_or(""));
+  texts.emplace_back("caller", measurement.caller.value_or(""));
+  return texts;
 }
 
 /// Returns whether a topic or a level may not have the character, as MQTT 1.5.4 advises.
@@ -107,6 +89,7 @@ Result<TopicTemplate> TopicTemplate::parse_parts(std::string_view text) {
     return invalid_field(fmt::format("a topic must have 1 to {} bytes", kLongest));
   }
   TopicTemplate made;
+  const std::vector<NamedText> known = texts_of({});
   while (!text.empty()) {
     const std::size_t open = text.find('{');
     const std::string_view literal = text.substr(0, open);
@@ -117,9 +100,12 @@ Result<TopicTemplate> TopicTemplate::parse_parts(std::string_view text) {
     text.remove_prefix(open + 1);
     const std::size_t close = text.find('}');
     const std::string_view name = text.substr(0, close);
-    if (close == std::string_view::npos || !value_of({}, name)) {
-      return invalid_field(
-          fmt::format("unknown {{{}}}; use one of: {}", first_characters(name, 40), names()));
+    const bool is_known = std::ranges::find(known, name, &NamedText::first) != known.end();
+    if (close == std::string_view::npos || !is_known) {
+      std::vector<std::string> names;
+      for (const auto& [each, value] : known) names.push_back(fmt::format("{{{}}}", each));
+      return invalid_field(fmt::format("unknown {{{}}}; use one of: {}", first_characters(name, 40),
+                                       fmt::join(names, ", ")));
     }
     made.parts_.push_back({.is_name = true, .text = std::string(name)});
     text.remove_prefix(close + 1);
@@ -128,9 +114,12 @@ Result<TopicTemplate> TopicTemplate::parse_parts(std::string_view text) {
 }
 
 std::string TopicTemplate::topic_of(const Measurement& measurement) const {
+  const std::vector<NamedText> texts = texts_of(measurement);
   std::string topic;
   for (const Part& part : parts_) {
-    topic += part.is_name ? topic_level(*value_of(measurement, part.text)) : part.text;
+    topic += part.is_name
+                 ? topic_level(std::ranges::find(texts, part.text, &NamedText::first)->second)
+                 : part.text;
   }
   return topic;
 }

@@ -2,6 +2,8 @@
 
 #include <sparkplug/sparkplug_wire.pb.h>
 
+#include "base/number.hpp"
+
 namespace fitgauge::connections {
 namespace {
 
@@ -18,30 +20,44 @@ struct SetValue {
 };
 
 using app::Measurement;
-using app::MeasurementFields;
 using Type = SparkplugType;
 using Value = SparkplugValue;
 
-Value text_or_null(const std::optional<std::string_view>& text) {
+/// The nearest double: from nanometres, so that 13 µm are 13 and not 13.000000000000002.
+Value um(Length length) { return static_cast<double>(length.count()) / 1e3; }
+Value mm(Length length) { return length.to_mm(); }
+Value text(const std::optional<std::string_view>& text) {
   return text ? Value(std::string(*text)) : Value();
 }
 
-template <std::optional<std::string_view> MeasurementFields::*kText>
-Value text(const Measurement& measurement) {
-  return text_or_null(measurement.*kText);
+/// Metrics of a device's last measurement, equal for every quantity, so that a birth names all
+/// later metrics.
+std::vector<SparkplugMetric> metrics_of(const Measurement& m) {
+  const Timestamp at = m.measured_at;
+  const Length deviation = m.has_nominal ? m.decisive() - m.nominal_size : Length();
+  const Value none;
+  return {
+      {"id", {}, Type::String, at, app::measurement_id_text(m.id, m.origin)},
+      {"measured_mm", {}, Type::Double, at, mm(m.measured)},
+      {"verdict", {}, Type::String, at, text(word(m.result.verdict))},
+      {"deviation_um", {}, Type::Double, at, m.has_nominal ? um(deviation) : none},
+      {"excess_um", {}, Type::Double, at, m.is_judged() ? um(m.result.excess) : none},
+      {"nominal_mm", {}, Type::Double, at, m.has_nominal ? mm(m.nominal_size) : none},
+      {"upper_limit_mm", {}, Type::Double, at, m.has_upper_limit() ? mm(m.upper_limit()) : none},
+      {"lower_limit_mm", {}, Type::Double, at, m.has_lower_limit() ? mm(m.lower_limit()) : none},
+      {"tolerance_class", {}, Type::String, at, text(m.class_name)},
+      {"measured_at", {}, Type::DateTime, at, milliseconds(at)},
+      {"part_id", {}, Type::String, at, text(m.part_id)},
+      {"characteristic", {}, Type::String, at, text(m.characteristic)},
+      {"order", {}, Type::String, at, text(m.order)},
+      {"operation", {}, Type::String, at, text(m.operation)},
+      {"machine", {}, Type::String, at, text(m.machine)},
+      {"operator", {}, Type::String, at, text(m.operator_id)},
+      {"gauge", {}, Type::String, at, text(m.gauge)},
+  };
 }
-
-/// The nearest double: from nanometres, so that 13 µm are 13 and not 13.000000000000002.
-double um(Length length) { return static_cast<double>(length.count()) / 1e3; }
 
 constexpr std::uint64_t kPositionAlias = 1;
-
-/// Removes the name, which only births need: data has the alias.
-SparkplugMetric without_name(SparkplugMetric metric) {
-  metric.name.clear();
-  metric.type.reset();
-  return metric;
-}
 
 }  // namespace
 
@@ -72,41 +88,6 @@ bool asks_for_rebirth(std::string_view bytes) {
     return metric.name() == kRebirth && metric.boolean_value();
   });
 }
-
-const std::array<DeviceMetric, 17> kDeviceMetrics = {{
-    {"id", Type::String,
-     [](const Measurement& m) { return Value(app::measurement_id_text(m.id, m.origin)); }},
-    {"measured_mm", Type::Double, [](const Measurement& m) { return Value(m.measured.to_mm()); }},
-    {"verdict", Type::String,
-     [](const Measurement& m) { return Value(std::string(word(m.result.verdict))); }},
-    {"deviation_um", Type::Double,
-     [](const Measurement& m) {
-       return m.has_nominal ? Value(um(m.decisive() - m.nominal_size)) : Value();
-     }},
-    {"excess_um", Type::Double,
-     [](const Measurement& m) { return m.is_judged() ? Value(um(m.result.excess)) : Value(); }},
-    {"nominal_mm", Type::Double,
-     [](const Measurement& m) { return m.has_nominal ? Value(m.nominal_size.to_mm()) : Value(); }},
-    {"upper_limit_mm", Type::Double,
-     [](const Measurement& m) {
-       return m.has_upper_limit() ? Value(m.upper_limit().to_mm()) : Value();
-     }},
-    {"lower_limit_mm", Type::Double,
-     [](const Measurement& m) {
-       return m.has_lower_limit() ? Value(m.lower_limit().to_mm()) : Value();
-     }},
-    {"tolerance_class", Type::String,
-     [](const Measurement& m) { return text_or_null(m.class_name); }},
-    {"measured_at", Type::DateTime,
-     [](const Measurement& m) { return Value(milliseconds(m.measured_at)); }},
-    {"part_id", Type::String, text<&MeasurementFields::part_id>},
-    {"characteristic", Type::String, text<&MeasurementFields::characteristic>},
-    {"order", Type::String, text<&MeasurementFields::order>},
-    {"operation", Type::String, text<&MeasurementFields::operation>},
-    {"machine", Type::String, text<&MeasurementFields::machine>},
-    {"operator", Type::String, text<&MeasurementFields::operator_id>},
-    {"gauge", Type::String, text<&MeasurementFields::gauge>},
-}};
 
 EdgeNode::EdgeNode(const SparkplugOptions& options, const Clock& clock, Send send)
     : options_(options), clock_(clock), send_(std::move(send)), next_alias_(kPositionAlias + 1) {}
@@ -144,7 +125,7 @@ void EdgeNode::give_birth() {
   for (const Device& device : devices_) send_birth(device);
 }
 
-EdgeNode::Device& EdgeNode::device_of(const std::string& id) {
+EdgeNode::Device& EdgeNode::device_of(const std::string& id, std::vector<SparkplugMetric> metrics) {
   if (const auto known = by_id_.find(id); known != by_id_.end()) {
     devices_.splice(devices_.end(), devices_, known->second);
     return devices_.back();
@@ -154,26 +135,26 @@ EdgeNode::Device& EdgeNode::device_of(const std::string& id) {
     by_id_.erase(devices_.front().id);
     devices_.pop_front();
   }
-  Device& device = devices_.emplace_back(Device{.id = id, .first_alias = next_alias_});
-  next_alias_ += kDeviceMetrics.size();
-  for (std::size_t i = 0; i < kDeviceMetrics.size(); ++i) {
-    device.metrics.push_back({.name = std::string(kDeviceMetrics.at(i).name),
-                              .alias = device.first_alias + i,
-                              .type = kDeviceMetrics.at(i).type,
-                              .at = clock_.now()});
+  for (SparkplugMetric& metric : metrics) {
+    metric.alias = next_alias_++;
+    metric.at = clock_.now();
+    metric.value = std::monostate();
   }
+  Device& device = devices_.emplace_back(Device{.id = id, .metrics = std::move(metrics)});
   by_id_.emplace(id, std::prev(devices_.end()));
   send_birth(device);
   return device;
 }
 
 void EdgeNode::tell(const app::Measurement& measurement) {
-  Device& device = device_of(options_.device.topic_of(measurement));
-  std::vector<SparkplugMetric> told;
-  for (std::size_t i = 0; i < kDeviceMetrics.size(); ++i) {
-    device.metrics[i].at = measurement.measured_at;
-    device.metrics[i].value = kDeviceMetrics.at(i).value(measurement);
-    told.push_back(without_name(device.metrics[i]));
+  std::vector<SparkplugMetric> told = metrics_of(measurement);
+  Device& device = device_of(options_.device.topic_of(measurement), told);
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    told[i].alias = device.metrics[i].alias;
+    device.metrics[i] = told[i];
+    // Only births need the name: data has the alias.
+    told[i].name.clear();
+    told[i].type.reset();
   }
   send("DDATA", device.id, told);
 }
@@ -191,11 +172,8 @@ void HostState::take(std::string_view payload) {
   const bool is_whole = online != nullptr && online->is(JsonValue::Kind::Boolean) &&
                         time != nullptr && time->is(JsonValue::Kind::Number);
   if (!is_whole) return;
-  std::int64_t timestamp = 0;
-  const char* const end = time->text.data() + time->text.size();
-  const auto read = std::from_chars(time->text.data(), end, timestamp);
-  if (read.ec != std::errc() || read.ptr != end) return;
-  if (timestamp_ && timestamp < *timestamp_) return;
+  const auto timestamp = read_number<std::int64_t>(time->text);
+  if (!timestamp || timestamp < timestamp_) return;
   timestamp_ = timestamp;
   is_online_ = online->boolean;
 }

@@ -54,16 +54,6 @@ inline constexpr std::string_view kRebirth = "Node Control/Rebirth";
 /// Whether a command requests all births. A malformed payload requests nothing.
 bool asks_for_rebirth(std::string_view payload);
 
-/// Metrics of a device's last measurement, equal for every quantity, so that a birth names all
-/// later metrics.
-struct DeviceMetric {
-  std::string_view name;
-  SparkplugType type;
-  SparkplugValue (*value)(const app::Measurement& measurement);
-};
-
-extern const std::array<DeviceMetric, 17> kDeviceMetrics;
-
 /// Messages of an edge node, with their order and numbers. Sends nothing itself. For one thread.
 class EdgeNode {
  public:
@@ -92,7 +82,6 @@ class EdgeNode {
  private:
   struct Device {
     std::string id{};
-    std::uint64_t first_alias = 0;
     std::vector<SparkplugMetric> metrics{};  ///< as last reported
   };
   using Devices = std::list<Device>;  ///< the longest silent device first
@@ -101,7 +90,8 @@ class EdgeNode {
             const std::vector<SparkplugMetric>& metrics);
   void send_birth(const Device& device) { send("DBIRTH", device.id, device.metrics); }
   SparkplugMetric session_metric() const;
-  Device& device_of(const std::string& id);
+  /// @param metrics with names and types, for the birth of a new device
+  Device& device_of(const std::string& id, std::vector<SparkplugMetric> metrics);
 
   const SparkplugOptions& options_;
   const Clock& clock_;

@@ -71,7 +71,7 @@ class Sparkplug final : public Outlet {
   }
 
   std::optional<std::string> subscribe(const std::string& topic, const std::stop_token& stop) {
-    const auto ticket = link_.client().subscribe(topic, 1);
+    const auto ticket = link_.client().subscribe(topic);
     const auto reason = link_.client().wait_settled(ticket, kLongestSilence, stop);
     if (reason == 0) return std::nullopt;
     return reason ? link_.refused(fmt::format("it refuses to subscribe to {}", topic))
