@@ -111,7 +111,10 @@ Result<std::unique_ptr<Connections>> Connections::start(std::vector<Definition> 
   std::unique_ptr<Connections> all(new Connections(std::move(plant)));
   const auto stored = all->plant_.documents.wait_for_list(app::DocumentKind::Connection);
   if (!stored && stored.error().code != ErrorCode::StorageCorrupt) return stored.error();
-  for (Definition& definition : configured) all->begin(std::move(definition), true);
+  for (Definition& definition : configured) {
+    definition.is_read_only = true;
+    all->begin(std::move(definition));
+  }
   if (!stored) return all;  // the readiness shows the damage
   for (const app::NamedDocument& document : *stored) {
     const auto not_started = [&](std::string_view why) {
@@ -125,7 +128,7 @@ Result<std::unique_ptr<Connections>> Connections::start(std::vector<Definition> 
     auto definition =
         body ? read_definition(document.name, *body, {.roots = all->plant_.folders}) : body.error();
     if (definition) {
-      all->begin(*std::move(definition), false);
+      all->begin(*std::move(definition));
     } else {
       const Error& error = definition.error();
       not_started(error.details.empty() ? error.message : error.details.front().message);
@@ -141,12 +144,11 @@ Connections::~Connections() {
   for (const auto& [key, entry] : entries_) entry.worker->request_stop();
 }
 
-void Connections::begin(Definition definition, bool is_read_only) {
+void Connections::begin(Definition definition) {
   const std::string key = ascii_lower(definition.name);
   auto worker = definition.settings.start(plant_);
   const std::lock_guard lock(mutex_);
-  entries_.insert_or_assign(
-      key, Entry{.known = {std::move(definition), is_read_only}, .worker = std::move(worker)});
+  entries_.insert_or_assign(key, Entry{std::move(definition), std::move(worker)});
 }
 
 void Connections::end(const std::string& key) {
@@ -158,18 +160,24 @@ void Connections::end(const std::string& key) {
   entries_.erase(found);
 }
 
-std::optional<Connections::Known> Connections::find(std::string_view name) const {
+std::optional<Definition> Connections::find(std::string_view name) const {
   const std::lock_guard lock(mutex_);
   const auto found = entries_.find(ascii_lower(name));
-  return found == entries_.end() ? std::nullopt : std::optional(found->second.known);
+  return found == entries_.end() ? std::nullopt : std::optional(found->second.definition);
+}
+
+Result<Definition> Connections::named(std::string_view name) const {
+  auto found = find(name);
+  if (!found || found->name != name) return unknown(name);
+  return *std::move(found);
 }
 
 ConnectionState Connections::state_of(const Entry& entry) {
   ConnectionState state = entry.worker->state();
-  state.name = entry.known.definition.name;
-  state.kind = entry.known.definition.kind;
-  state.settings = entry.known.definition.shown;
-  state.is_read_only = entry.known.is_read_only;
+  state.name = entry.definition.name;
+  state.kind = entry.definition.kind;
+  state.settings = entry.definition.shown;
+  state.is_read_only = entry.definition.is_read_only;
   return state;
 }
 
@@ -183,7 +191,7 @@ std::vector<ConnectionState> Connections::states() const {
 std::optional<ConnectionState> Connections::state(std::string_view name) const {
   const std::lock_guard lock(mutex_);
   const auto found = entries_.find(ascii_lower(name));
-  if (found == entries_.end() || found->second.known.definition.name != name) return std::nullopt;
+  if (found == entries_.end() || found->second.definition.name != name) return std::nullopt;
   return state_of(found->second);
 }
 
@@ -196,11 +204,11 @@ Result<bool> Connections::put(const std::string& name, std::string_view body,
   }
   TRY(check_name(name));
   const auto before = find(name);
-  if (before && before->is_read_only) return read_only(before->definition.name);
-  if (before && before->definition.name != name) {
+  if (before && before->is_read_only) return read_only(before->name);
+  if (before && before->name != name) {
     return Error{ErrorCode::PathMalformed,
                  fmt::format("'{}' and the connection '{}' differ only in upper and lower case",
-                             name, before->definition.name)};
+                             name, before->name)};
   }
   if (!before && states().size() >= kMostConnections) {
     return Error{ErrorCode::RequestInvalid,
@@ -208,7 +216,7 @@ Result<bool> Connections::put(const std::string& name, std::string_view body,
                              kMostConnections)};
   }
   auto json = TRY(parse_json(body));
-  if (before) keep_secrets(json, before->definition);
+  if (before) keep_secrets(json, *before);
   auto definition = TRY(read_definition(name, json, {.roots = plant_.folders}));
   if (const auto& follower = definition.settings.follower) {
     // Stores its start before it exists, so that it misses nothing after the response.
@@ -220,26 +228,25 @@ Result<bool> Connections::put(const std::string& name, std::string_view body,
                                                            .text = definition.text,
                                                            .caller = caller}));
   end(ascii_lower(name));
-  begin(std::move(definition), false);
+  begin(std::move(definition));
   return is_new;
 }
 
 Result<void> Connections::remove(const std::string& name,
                                  const std::optional<std::string>& caller) {
-  const auto found = find(name);
-  if (found && found->definition.name == name && found->is_read_only) return read_only(name);
+  const auto found = named(name);
+  if (found && found->is_read_only) return read_only(name);
   // Removes a connection even if it was stored and not started.
   TRY(plant_.documents.remove_and_wait(app::DocumentKind::Connection, name, caller));
-  if (found && found->definition.name == name) end(ascii_lower(name));
+  if (found) end(ascii_lower(name));
   return forget_progress(plant_.documents, name);
 }
 
 Result<void> Connections::replay(const std::string& name, std::string_view body) {
-  const auto found = find(name);
-  if (!found || found->definition.name != name) return unknown(name);
+  const auto found = TRY(named(name));
   const auto json = TRY(parse_json(body));
   const auto order = TRY(api::read_whole<ReplayOrder>(json));
-  const auto& follower = found->definition.settings.follower;
+  const auto& follower = found.settings.follower;
   if (!follower) {
     return Error{
         ErrorCode::RequestInvalid,
@@ -251,13 +258,12 @@ Result<void> Connections::replay(const std::string& name, std::string_view body)
     TRY(move_back(progress, order, plant_));
     return save_progress(plant_.documents, name, progress);
   }();
-  begin(found->definition, found->is_read_only);
+  begin(found);
   return saved;
 }
 
 Result<ConnectionTest> Connections::test(const std::string& name) {
-  const auto found = find(name);
-  if (!found || found->definition.name != name) return unknown(name);
+  const auto found = TRY(named(name));
   {
     std::unique_lock lock(mutex_);  // a broker sends the first of two with one name away
     tested_.wait(lock, [&] { return under_test_.insert(name).second; });
@@ -267,7 +273,7 @@ Result<ConnectionTest> Connections::test(const std::string& name) {
     under_test_.erase(name);
     tested_.notify_all();
   });
-  return found->definition.settings.test(plant_, stopping_.get_token());
+  return found.settings.test(plant_, stopping_.get_token());
 }
 
 }  // namespace fitgauge::connections

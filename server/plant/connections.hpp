@@ -13,6 +13,7 @@ struct Definition {
   std::string text{};   ///< JSON, as stored
   std::string shown{};  ///< text without its secrets
   Settings settings{};
+  bool is_read_only = false;  ///< belongs to the configuration file
 };
 
 /// Letters, digits, - and _, 1 to 63 of them. @errors PathMalformed
@@ -73,21 +74,20 @@ class Connections {
   Result<ConnectionTest> test(const std::string& name);
 
  private:
-  struct Known {
-    Definition definition;
-    bool is_read_only = false;
-  };
   struct Entry {
-    Known known;
+    Definition definition;
     std::unique_ptr<Worker> worker;
   };
 
   explicit Connections(Plant plant);
 
-  void begin(Definition definition, bool is_read_only);
+  void begin(Definition definition);
   /// Removes a connection and waits until it has ended.
   void end(const std::string& key);
-  std::optional<Known> find(std::string_view name) const;
+  /// Returns the connection whose name differs at most in upper and lower case.
+  std::optional<Definition> find(std::string_view name) const;
+  /// @errors ConnectionUnknown.
+  Result<Definition> named(std::string_view name) const;
   static ConnectionState state_of(const Entry& entry);
 
   const Plant plant_;
