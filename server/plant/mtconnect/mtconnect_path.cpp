@@ -3,15 +3,8 @@
 namespace fitgauge::mtconnect {
 namespace {
 
-/// The outer elements of MTConnectDevices; data items are in the last one.
-constexpr std::array<std::string_view, 4> kOuter = {"MTConnectDevices", "Devices", "Device",
-                                                    "DataItems"};
-constexpr std::size_t kDevice = 2;
-
-struct Condition {
-  std::string_view attribute;
-  std::string_view text;
-};
+/// An attribute and its text.
+using Condition = std::pair<std::string_view, std::string_view>;
 
 struct Step {
   bool is_anywhere = false;  ///< after `//`
@@ -23,7 +16,7 @@ struct Step {
 /// An element as a step sees it.
 struct Place {
   std::string_view name;
-  const DataItem* item = nullptr;
+  std::vector<Condition> attributes{};
 };
 
 class PathReader {
@@ -72,14 +65,14 @@ class PathReader {
   std::optional<Condition> condition() {
     blanks();
     if (!take("@")) return std::nullopt;
-    Condition read{.attribute = name(), .text = {}};
+    Condition read(name(), "");
     blanks();
     if (!take("=")) return std::nullopt;
     blanks();
     const char quote = rest_.empty() ? '\0' : rest_.front();
     const std::size_t end = quote == '"' || quote == '\'' ? rest_.find(quote, 1) : rest_.npos;
     if (end == rest_.npos) return std::nullopt;
-    read.text = rest_.substr(1, end - 1);
+    read.second = rest_.substr(1, end - 1);
     rest_.remove_prefix(end + 1);
     blanks();
     return read;
@@ -103,25 +96,13 @@ class PathReader {
   std::string_view rest_;
 };
 
-std::optional<std::string_view> attribute_of(const Place& place, std::string_view name) {
-  if (place.item == nullptr) {
-    if (place.name != kOuter[kDevice]) return std::nullopt;
-    if (name == "name") return "Gauge";
-    return name == "id" ? std::optional<std::string_view>("gauge") : std::nullopt;
-  }
-  if (name == "id") return place.item->id;
-  if (name == "type") return place.item->type;
-  if (name == "category") return "EVENT";
-  if (name == "subType" && !place.item->sub_type.empty()) return place.item->sub_type;
-  return std::nullopt;
-}
-
 bool is_met(const Step& step, const Place& place) {
   if (step.name != "*" && step.name != place.name) return false;
-  return step.any.empty() || std::ranges::any_of(step.any, [&place](const auto& all) {
-           return std::ranges::all_of(all, [&place](const Condition& condition) {
-             return attribute_of(place, condition.attribute) == condition.text;
-           });
+  const auto is_there = [&place](const Condition& condition) {
+    return std::ranges::find(place.attributes, condition) != place.attributes.end();
+  };
+  return step.any.empty() || std::ranges::any_of(step.any, [&](const auto& all) {
+           return std::ranges::all_of(all, is_there);
          });
 }
 
@@ -152,8 +133,14 @@ Result<Selection> select(std::string_view path) {
                    "path"};
     }
     for (std::size_t i = 0; i < kDataItems.size(); ++i) {
-      const std::array<Place, 5> places = {
-          {{kOuter[0]}, {kOuter[1]}, {kOuter[2]}, {kOuter[3]}, {"DataItem", &kDataItems.at(i)}}};
+      const DataItem& item = kDataItems.at(i);
+      std::array<Place, 5> places = {
+          {{"MTConnectDevices"},
+           {"Devices"},
+           {"Device", {{"name", "Gauge"}, {"id", "gauge"}}},
+           {"DataItems"},
+           {"DataItem", {{"id", item.id}, {"type", item.type}, {"category", "EVENT"}}}}};
+      if (!item.sub_type.empty()) places[4].attributes.emplace_back("subType", item.sub_type);
       if (leads(*steps, 0, places, 0)) selection.set(i);
     }
     if (bar == rest.size()) break;

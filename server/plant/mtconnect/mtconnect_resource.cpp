@@ -13,31 +13,52 @@ using mtconnect::Streams;
 constexpr std::string_view kXml = "text/xml";
 constexpr std::size_t kResultsOfAsset = 100;
 
+using Kept = std::vector<std::unique_ptr<app::KeptMeasurement>>;
+
 /// The input of the document of one request.
 struct Gathered {
   SharedResponder responder;
   Agent agent;
   Selection selection = mtconnect::kEverything;
-  std::vector<std::unique_ptr<app::KeptMeasurement>> newest{};  ///< the newest first
+  Kept newest{};  ///< the newest first
+  // Only for `current`, which shows the newest measurement now or at an earlier sequence:
+  std::uint64_t at = 0;  ///< the last sequence that is seen
+  Kept begun{};          ///< the next measurement, of which only the part is seen
+
+  /// Returns the last measurement of which all observations are seen.
+  std::int64_t whole() const {
+    const std::int64_t last = mtconnect::measurement_at(at);
+    return at == mtconnect::feature_sequence(last) ? last : last - 1;
+  }
 };
 using SharedGathered = std::shared_ptr<Gathered>;
+
+/// Reads measurements into `where`, then calls `done`, unless the storage fails.
+void gather(const Services& services, const SharedGathered& gathered,
+            const app::MeasurementQuery& query, std::int64_t behind, std::size_t count,
+            Kept Gathered::*where, std::function<void(const app::ListPage&)> done) {
+  services.measurements.list(
+      query, behind, count,
+      [gathered, where](const app::Measurement& measurement) {
+        ((*gathered).*where).push_back(std::make_unique<app::KeptMeasurement>(measurement));
+      },
+      [gathered, done = std::move(done)](const Result<app::ListPage>& page) {
+        if (!page) return gathered->responder->fail(page.error());
+        done(*page);
+      });
+}
 
 /// Reads the newest measurements, then calls `done`.
 void gather_newest(const Services& services, const SharedGathered& gathered, std::size_t count,
                    std::function<void()> done) {
   app::MeasurementQuery query;
   query.newest_first = true;
-  services.measurements.list(
-      query, 0, count,
-      [gathered](const app::Measurement& measurement) {
-        gathered->newest.push_back(std::make_unique<app::KeptMeasurement>(measurement));
-      },
-      [gathered, done = std::move(done)](const Result<app::ListPage>& page) {
-        if (!page) return gathered->responder->fail(page.error());
-        gathered->agent.newest = page->as_of;
-        gathered->agent.has_asset = !gathered->newest.empty();
-        done();
-      });
+  gather(services, gathered, query, 0, count, &Gathered::newest,
+         [gathered, done = std::move(done)](const app::ListPage& page) {
+           gathered->agent.newest = page.as_of;
+           gathered->agent.has_asset = !gathered->newest.empty();
+           done();
+         });
 }
 
 SharedGathered gathered_for(const Services& services, http::Responder responder) {
@@ -53,31 +74,15 @@ void probe(const Services& services, const http::Request&, http::Responder respo
   });
 }
 
-/// The content of `current`: the newest measurement of the log, now or at an earlier sequence.
-struct Current {
-  SharedGathered gathered;
-  std::uint64_t at = 0;  ///< the last sequence that is seen
-  /// The newest measurement that is seen whole.
-  std::unique_ptr<app::KeptMeasurement> newest{};
-  /// Next measurement, of which only the part is read.
-  std::unique_ptr<app::KeptMeasurement> begun{};
-
-  /// Returns the last measurement of which all observations are seen.
-  std::int64_t whole() const {
-    const std::int64_t last = mtconnect::measurement_at(at);
-    return at == mtconnect::feature_sequence(last) ? last : last - 1;
-  }
-};
-using SharedCurrent = std::shared_ptr<Current>;
-
-void answer_current(const Current& current, const std::vector<app::MeasurementGroup>& groups) {
-  Streams streams(current.gathered->agent, current.gathered->selection);
+void answer_current(const Gathered& current, const std::vector<app::MeasurementGroup>& groups) {
+  Streams streams(current.agent, current.selection);
   streams.add_availability();
-  const app::Measurement* const newest = current.newest ? &**current.newest : nullptr;
-  const Timestamp at = newest == nullptr ? current.gathered->agent.began : newest->received_at;
+  const app::Measurement* const newest =
+      current.newest.empty() ? nullptr : &**current.newest.front();
+  const Timestamp at = newest == nullptr ? current.agent.began : newest->received_at;
   const std::int64_t seen = newest == nullptr ? 0 : current.whole();
   streams.add_assets(seen, at);
-  if (const app::Measurement* const part = current.begun ? &**current.begun : newest) {
+  if (const auto* const part = current.begun.empty() ? newest : &**current.begun.front()) {
     streams.add(*part, mtconnect::part_sequence(part->row));
   } else {
     streams.add_unavailable_part();
@@ -88,48 +93,34 @@ void answer_current(const Current& current, const std::vector<app::MeasurementGr
     streams.add_unavailable_feature();
   }
   streams.add_counts(mtconnect::counts_of(groups), seen, at);
-  const std::uint64_t next = mtconnect::feature_sequence(current.gathered->agent.newest) + 1;
-  current.gathered->responder->answer(mtconnect_response(200, streams.document(next)));
+  const std::uint64_t next = mtconnect::feature_sequence(current.agent.newest) + 1;
+  current.responder->answer(mtconnect_response(200, streams.document(next)));
 }
 
-/// Keeps the first measurement of a list, then calls `done`.
-void keep_first(const Services& services, const SharedCurrent& current,
-                const app::MeasurementQuery& query, std::int64_t behind,
-                std::unique_ptr<app::KeptMeasurement> Current::*where, std::function<void()> done) {
-  services.measurements.list(
-      query, behind, 1,
-      [current, where](const app::Measurement& measurement) {
-        (*current).*where = std::make_unique<app::KeptMeasurement>(measurement);
-      },
-      [current, done = std::move(done)](const Result<app::ListPage>& page) {
-        if (!page) return current->gathered->responder->fail(page.error());
-        done();
-      });
-}
-
-void count_and_answer(const Services& services, const SharedCurrent& current) {
+void count_and_answer(const Services& services, const SharedGathered& current) {
   app::MeasurementQuery counted;
   counted.as_of_id = current->whole();
   services.measurements.summary(
       counted, "tolerance_class",
       [current](const Result<std::vector<app::MeasurementGroup>>& groups) {
-        if (!groups) return current->gathered->responder->fail(groups.error());
+        if (!groups) return current->responder->fail(groups.error());
         answer_current(*current, *groups);
       });
 }
 
-void read_current(const Services& services, const SharedCurrent& current) {
+void read_current(const Services& services, const SharedGathered& current) {
   app::MeasurementQuery whole;
   whole.newest_first = true;
   whole.as_of_id = current->whole();
-  keep_first(services, current, whole, 0, &Current::newest, [current, &services] {
+  current->newest.clear();
+  gather(services, current, whole, 0, 1, &Gathered::newest, [current, &services](const auto&) {
     const std::int64_t last = mtconnect::measurement_at(current->at);
     if (last == current->whole()) return count_and_answer(services, current);
     app::MeasurementQuery part;
     part.history = true;
     part.as_of_id = last;
-    keep_first(services, current, part, last - 1, &Current::begun,
-               [current, &services] { count_and_answer(services, current); });
+    gather(services, current, part, last - 1, 1, &Gathered::begun,
+           [current, &services](const auto&) { count_and_answer(services, current); });
   });
 }
 
@@ -140,19 +131,15 @@ void current(const Services& services, const http::Request& request, http::Respo
     if (!chosen) return responder.fail(chosen.error());
     selection = *chosen;
   }
-  const auto current =
-      std::make_shared<Current>(Current{.gathered = gathered_for(services, std::move(responder))});
-  current->gathered->selection = selection;
+  const auto current = gathered_for(services, std::move(responder));
+  current->selection = selection;
   const auto wanted = request.integer("at");
-  gather_newest(services, current->gathered, 1, [current, wanted, &services] {
-    const Gathered& gathered = *current->gathered;
-    const std::uint64_t last = mtconnect::feature_sequence(gathered.agent.newest);
+  gather_newest(services, current, 1, [current, wanted, &services] {
+    const std::uint64_t last = mtconnect::feature_sequence(current->agent.newest);
     current->at = wanted ? static_cast<std::uint64_t>(*wanted) : last;
-    if (current->at > last) {
-      return gathered.responder->fail(
-          {ErrorCode::NotFound, fmt::format("at must be from 1 to {}", last), "at"});
-    }
-    read_current(services, current);
+    if (current->at <= last) return read_current(services, current);
+    current->responder->fail(
+        {ErrorCode::NotFound, fmt::format("at must be from 1 to {}", last), "at"});
   });
 }
 
