@@ -50,8 +50,7 @@ Forwarder::Forwarder(app::LogOutbox outbox, app::RevisionIntake intake, Forwarde
     : outbox_(outbox),
       options_(std::move(options)),
       link_(options_.centre),
-      follower_(
-          std::move(intake), [this] { return outbox_.newest_history(); }, options_.tell) {
+      intake_(std::move(intake)) {
   if (const auto confirmed = outbox_.confirmed(options_.centre.url)) confirmed_ = *confirmed;
   look();
   // The first measurement needs the newest tables; an unreachable centre delays little.
@@ -89,9 +88,19 @@ bool Forwarder::wait(const std::stop_token& stop, milliseconds time) {
   return !stop.stop_requested();
 }
 
-/// Handles the centre's revisions, and its state of this folder's log.
+/// Takes the centre's revisions if they are due, and handles its state of this folder's log.
 void Forwarder::follow(const CentreLink::GoesOn& goes_on) {
-  const auto there = follower_.look(link_, goes_on);
+  const auto now = Steady::now();
+  if (now < due_) return;
+  due_ = now + kBetweenQuestions;
+  if (refused_some_ && now > begun_ + kBetweenBeginnings) position_.clear();
+  if (position_.empty()) {
+    begun_ = now;
+    refused_some_ = false;
+  }
+  std::optional<Heard> there;
+  while (take_page(goes_on, there)) {
+  }
   if (!there) return;
   outbox_.meet(there->centre);
   // The centre was set back to an older copy: it gets the missing rows. Of an unknown branch it may
@@ -102,6 +111,36 @@ void Forwarder::follow(const CentreLink::GoesOn& goes_on) {
   const std::int64_t noted = noted_.value_or(0);
   const bool is_told = outbox_.is_note_of(there->history, std::max(noted, *there->notes));
   noted_ = is_told ? *there->notes : noted;  // the centre ignores notes that it already has
+}
+
+/// @returns whether there is more.
+bool Forwarder::take_page(const CentreLink::GoesOn& goes_on, std::optional<Heard>& heard) {
+  const std::string_view station = outbox_.newest_history();
+  const http_client::HttpAnswer answer =
+      link_.get(fmt::format("/v1/log/revisions?station={}&after={}", station, position_), goes_on);
+  if (answer.status == 0) return failed_to_follow(answer.failure);
+  if (answer.status != kOk) return failed_to_follow(fmt::format("it answers {}", answer.status));
+  const auto read = api::read_revisions(answer.body);
+  if (!read) return failed_to_follow(read.error().message);
+  const auto taken = intake_.take((*read)->page);
+  if (!taken) return failed_to_follow(taken.error().message);
+  follow_failure_.clear();
+  refused_some_ = refused_some_ || taken->refused > 0;
+  position_ = (*read)->page.position;
+  heard = {.history = station,
+           .centre = (*read)->page.origin,
+           .size = (*read)->page.size,
+           .notes = (*read)->page.notes};
+  if (taken->taken > 0) {
+    options_.tell("revisions_taken", fmt::format("{} up to {}", taken->taken, position_));
+  }
+  return (*read)->page.more;
+}
+
+bool Forwarder::failed_to_follow(const std::string& why) {
+  if (why != follow_failure_) options_.tell("revisions_failed", why);
+  follow_failure_ = why;
+  return false;
 }
 
 /// Counts waiting records during a call.
@@ -307,45 +346,6 @@ CentreLink::HttpAnswer CentreLink::put(const std::string& path, std::string_view
 
 CentreLink::HttpAnswer CentreLink::get(const std::string& path, const GoesOn& goes_on) {
   return call({.method = "GET", .longest_answer = kLongestPage}, path, goes_on);
-}
-
-std::optional<Follower::Heard> Follower::look(CentreLink& link, const CentreLink::GoesOn& goes_on) {
-  const auto now = Steady::now();
-  if (now < due_) return std::nullopt;
-  heard_.reset();
-  due_ = now + kBetweenQuestions;
-  if (refused_ && now > begun_ + kBetweenBeginnings) position_.clear();
-  if (position_.empty()) {
-    begun_ = now;
-    refused_ = false;
-  }
-  while (take_page(link, goes_on)) {
-  }
-  return heard_;
-}
-
-/// @returns whether there is more.
-bool Follower::take_page(CentreLink& link, const CentreLink::GoesOn& goes_on) {
-  const std::string_view station = station_();
-  const http_client::HttpAnswer answer =
-      link.get(fmt::format("/v1/log/revisions?station={}&after={}", station, position_), goes_on);
-  if (answer.status == 0) return failed(answer.failure);
-  if (answer.status != kOk) return failed(fmt::format("it answers {}", answer.status));
-  const auto read = api::read_revisions(answer.body);
-  if (!read) return failed(read.error().message);
-  const auto taken = intake_.take((*read)->page);
-  if (!taken) return failed(taken.error().message);
-  failure_.clear();
-  refused_ = refused_ || taken->refused > 0;
-  position_ = (*read)->page.position;
-  heard_ = {.history = station,
-            .centre = (*read)->page.origin,
-            .size = (*read)->page.size,
-            .notes = (*read)->page.notes};
-  if (taken->taken > 0) {
-    tell_("revisions_taken", fmt::format("{} up to {}", taken->taken, position_));
-  }
-  return (*read)->page.more;
 }
 
 }  // namespace fitgauge::forwarder

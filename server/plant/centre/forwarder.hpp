@@ -41,51 +41,15 @@ class CentreLink {
   http_client::HttpClient client_;
 };
 
-/// Requests revisions from the centre every few seconds and stores them. Its position is only in
-/// memory: after a start it stores all of them again, which changes nothing. Used by one thread.
-class Follower {
- public:
-  /// @param station returns the ending of the ids of this folder.
-  Follower(app::RevisionIntake intake, std::function<std::string_view()> station, Tell tell)
-      : intake_(std::move(intake)), station_(std::move(station)), tell_(std::move(tell)) {}
-
-  struct Heard {
-    std::string_view history{};           ///< of this folder
-    std::string centre{};                 ///< digits of its current history
-    std::int64_t size = 0;                ///< its records that the centre has
-    std::optional<std::int64_t> notes{};  ///< as RevisionPage
-  };
-  /// Polls the centre if it is due. Blocks like CentreLink. @returns none if it did not poll.
-  std::optional<Heard> look(CentreLink& link, const CentreLink::GoesOn& goes_on);
-
- private:
-  using Steady = std::chrono::steady_clock;
-
-  bool take_page(CentreLink& link, const CentreLink::GoesOn& goes_on);
-  bool failed(const std::string& why) {
-    if (why != failure_) tell_("revisions_failed", why);
-    failure_ = why;
-    return false;
-  }
-
-  app::RevisionIntake intake_;
-  const std::function<std::string_view()> station_;
-  const Tell tell_;
-  std::string position_{};
-  std::optional<Heard> heard_{};
-  bool refused_ = false;  ///< something since the beginning
-  std::string failure_{};
-  Steady::time_point due_{};
-  Steady::time_point begun_{};
-};
-
 struct ForwarderOptions {
   CentreOptions centre{};
   Tell tell{};  ///< called on the thread
 };
 
-/// Sends this folder's log to its centre in batches and stores the centre's revisions, on its own
-/// thread that no writer waits for. After a failure it waits, doubling up to half a minute.
+/// Sends this folder's log to its centre in batches, and every few seconds requests the centre's
+/// revisions and stores them, on its own thread that no writer waits for. After a failure it waits,
+/// doubling up to half a minute. The position in the revisions is only in memory: after a start it
+/// stores all of them again, which changes nothing.
 class Forwarder {
  public:
   /// First requests the centre's revisions, for at most some seconds.
@@ -107,8 +71,18 @@ class Forwarder {
   /// The result of a batch.
   enum class Sent { Nothing, Taken, Failed, Refused };
 
+  /// The centre's state of this folder's log, as it says it with its revisions.
+  struct Heard {
+    std::string_view history{};           ///< of this folder
+    std::string centre{};                 ///< digits of its current history
+    std::int64_t size = 0;                ///< its records that the centre has
+    std::optional<std::int64_t> notes{};  ///< as RevisionPage
+  };
+
   void run(const std::stop_token& stop);
   void follow(const CentreLink::GoesOn& goes_on);
+  bool take_page(const CentreLink::GoesOn& goes_on, std::optional<Heard>& heard);
+  bool failed_to_follow(const std::string& why);
   /// With the records it may have lost notes, also of histories before the newest.
   void goes_back_to(std::int64_t size) {
     confirmed_ = size;
@@ -128,7 +102,14 @@ class Forwarder {
   const app::LogOutbox outbox_;
   const ForwarderOptions options_;
   CentreLink link_;
-  Follower follower_;
+
+  app::RevisionIntake intake_;
+  std::string position_{};     ///< in the revisions
+  bool refused_some_ = false;  ///< a revision since the beginning of these
+  std::string follow_failure_{};
+  Steady::time_point begun_{};  ///< to take revisions from the first one
+  Steady::time_point due_{};    ///< the next question
+
   bool lacks_records_ = false;  ///< the centre refused records that it accepted before
   std::atomic<std::int64_t> confirmed_{0};
   std::atomic<std::int64_t> seen_{0};    ///< records there were at the last look
