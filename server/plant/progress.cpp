@@ -1,3 +1,4 @@
+#include "base/number.hpp"
 #include "plant/log_follower.hpp"
 
 namespace fitgauge::connections {
@@ -7,10 +8,7 @@ constexpr std::size_t kMostLetters = 100;
 constexpr auto kKind = app::DocumentKind::ConnectionProgress;
 
 std::int64_t whole_number(const JsonValue& object, std::string_view name) {
-  const std::string& digits = object.member(name).text;
-  std::int64_t number = 0;
-  std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  return number;
+  return read_number<std::int64_t>(object.member(name).text).value_or(0);
 }
 
 Progress progress_of(const JsonValue& stored) {
@@ -43,7 +41,7 @@ std::string json_of(const Progress& progress) {
   return text;
 }
 
-/// A name that no connection can have.
+/// Returns the name of the document of the session, which no connection can have as its name.
 std::string session_name(const std::string& name) { return name + ".session"; }
 
 constexpr std::size_t kEventsAtATime = 1000;
@@ -54,14 +52,11 @@ Error invalid_from(std::string message) {
   return *errors.take();
 }
 
-/// The number of an event of this folder.
+/// Returns the number of an event of this data folder; none for another id.
 std::optional<std::int64_t> event_number(std::string_view id, std::string_view origin) {
-  std::int64_t number = 0;
-  if (!id.starts_with('e')) return std::nullopt;
-  const auto [end, fault] = std::from_chars(id.data() + 1, id.data() + id.size(), number);
-  const std::string_view rest(end, static_cast<std::size_t>(id.data() + id.size() - end));
-  const bool is_own = fault == std::errc() && rest.starts_with('-') && rest.substr(1) == origin;
-  return is_own ? std::optional(number) : std::nullopt;
+  const std::size_t dash = id.find('-');
+  const bool is_own = id.starts_with('e') && dash != id.npos && id.substr(dash + 1) == origin;
+  return is_own ? read_number<std::int64_t>(id.substr(1, dash - 1)) : std::nullopt;
 }
 
 /// Returns the row of the first measurement that was received then or later; none if there is none.
@@ -71,11 +66,9 @@ Result<std::optional<std::int64_t>> first_row_from(Timestamp time, const Plant& 
   query.history = true;
   query.received_from_ns = time.nanoseconds;
   std::optional<std::int64_t> first;
-  const auto listed = wait_for_result<app::ListPage>([&](auto done) {
-    plant.measurements.list(
-        query, 0, 1, [&](const app::Measurement& found) { first = found.row; }, std::move(done));
-  });
-  if (!listed) return listed.error();
+  const auto take = [&](const app::Measurement& found) { first = found.row; };
+  TRY(wait_for_result<app::ListPage>(
+      [&](auto done) { plant.measurements.list(query, 0, 1, take, std::move(done)); }));
   return first;
 }
 

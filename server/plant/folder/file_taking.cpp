@@ -51,19 +51,6 @@ Result<void> append_all(Source& source, FileRows& rows) {
   }
 }
 
-Result<void> append_table(const FolderInOptions& options, const RestingFile& file, FileRows& rows) {
-  auto table = TRY(sheet::ShopRows::open(file.from_begin(), file.from_begin(), options.csv));
-  rows.text += table.header();
-  return append_all(table, rows);
-}
-
-Result<void> append_ndjson(const FolderInOptions& options, const RestingFile& file,
-                           FileRows& rows) {
-  auto records =
-      TRY(sheet::NdjsonRows::open(file.from_begin(), file.from_begin(), options.csv.encoding));
-  return append_all(records, rows);
-}
-
 Result<void> append_dfq(const FolderInOptions& options, const iso286::ToleranceTables& tables,
                         const RestingFile& file, const RestingFile* description, FileRows& rows) {
   aqdef::MeasurementCsv csv((description == nullptr ? file : *description).from_begin(),
@@ -113,17 +100,25 @@ Result<FileRows> read_file_rows(const FolderInOptions& options,
                                 const iso286::ToleranceTables& tables, std::string_view file_name,
                                 const RestingFile& file, const RestingFile* description) {
   FileRows rows{.media_type = sheet::is_ndjson(file_name) ? "application/x-ndjson" : "text/csv"};
-  // Unused room needs no memory; a growing text would exist twice.
+  // Reserved room that is not used needs no memory; a text that grows exists twice for a moment.
   rows.text.reserve(FileRows::kMostBytes + kMostAppended + http::Request::kBodyPadding);
-  const auto appended = is_dfq(file_name) ? append_dfq(options, tables, file, description, rows)
-                        : qif::is_qif(file_name)      ? append_qif(options, tables, file, rows)
-                        : sheet::is_ndjson(file_name) ? append_ndjson(options, file, rows)
-                                                      : append_table(options, file, rows);
-  if (!appended) return appended.error();
+  if (is_dfq(file_name)) {
+    TRY(append_dfq(options, tables, file, description, rows));
+  } else if (qif::is_qif(file_name)) {
+    TRY(append_qif(options, tables, file, rows));
+  } else if (sheet::is_ndjson(file_name)) {
+    const sheet::Encoding encoding = options.csv.encoding;
+    auto records = TRY(sheet::NdjsonRows::open(file.from_begin(), file.from_begin(), encoding));
+    TRY(append_all(records, rows));
+  } else {
+    auto table = TRY(sheet::ShopRows::open(file.from_begin(), file.from_begin(), options.csv));
+    rows.text += table.header();
+    TRY(append_all(table, rows));
+  }
   return rows;
 }
 
-/// An error of the rows with the lines of the file.
+/// Replaces the lines of the rows in an error by the lines of the file.
 Error at_lines_of(const FileRows& rows, Error error) {
   for (Error& field : error.details) {
     for (Error& place : field.details) {
@@ -139,7 +134,7 @@ Error at_lines_of(const FileRows& rows, Error error) {
 
 constexpr std::size_t kMostTold = 100;
 
-/// Not for a client: the response counts the stored rows.
+/// Counts the stored rows. No client gets this answer.
 class CountedRows final : public app::Rendering {
  public:
   void add(std::span<const app::Measurement> measurements, std::string_view) override {

@@ -32,8 +32,8 @@ bool is_of_storage(const Error& error) {
   }
 }
 
-/// Stores the files of a folder, each once, and moves them to its folder `done`, or with a text
-/// that has line and remedy to `failed`.
+/// Stores the files of a folder, each once, and moves them to its folder `done`; a wrong file goes
+/// to `failed`, with a text that names its wrong lines and their remedy.
 class FolderIn final : public Worker {
  public:
   FolderIn(FolderInOptions options, const Plant& plant)
@@ -72,7 +72,7 @@ class FolderIn final : public Worker {
                                IN_MOVED_TO | IN_CLOSE_WRITE | IN_DELETE_SELF | IN_MOVE_SELF);
   }
 
-  /// Until something happens, the time is over, or a stop.
+  /// Waits until something happens in the folder, the time is over, or a stop is requested.
   void wait(const std::stop_token& stop, std::chrono::milliseconds most) {
     const Time until = std::chrono::steady_clock::now() + most;
     while (!stop.stop_requested() && std::chrono::steady_clock::now() < until) {
@@ -94,7 +94,7 @@ class FolderIn final : public Worker {
     }
   }
 
-  /// Stores files that do not change. @returns why not.
+  /// Stores the files that no longer change. @returns why one could not be stored.
   std::optional<std::string> look(const std::stop_token& stop) {
     const auto folder = Folder::open(options_.folder);
     if (!folder) return folder.error().message;
@@ -150,10 +150,10 @@ class FolderIn final : public Worker {
                      fmt::format("it has more than {} MiB: split it into several files",
                                  options_.most_file_bytes >> 20)});
       }
-      auto file = RestingFile::open(folder, one, look);
+      auto file = folder.read(one);
       if (!file) return file.error().message;
       if (!*file) return std::nullopt;  // taken away since
-      files.push_back(**std::move(file));
+      files.emplace_back(one, **std::move(file), look);
     }
     const auto taken =
         take_file(options_, plant_, name, files[0], files.size() > 1 ? &files[1] : nullptr);
@@ -181,7 +181,7 @@ class FolderIn final : public Worker {
     return move_away(folder, names);
   }
 
-  /// The DFD of a DFX: empty while it has to be waited for. @errors it is not there.
+  /// Returns the name of the DFD of a DFX; empty: wait for it. @errors it did not come.
   Result<std::string> description_of(const std::string& name, const Seen& seen) {
     const std::string stem = name.substr(0, name.rfind('.'));
     for (const auto& [other, looked] : seen_) {
@@ -199,7 +199,7 @@ class FolderIn final : public Worker {
         fmt::format("its description {}.dfd is not in the folder: copy both files into it", stem)};
   }
 
-  /// Moves stored files. @returns why one stays, until the next scan.
+  /// Moves stored files to `done`. @returns why a file stays until the next scan.
   static std::optional<std::string> move_away(const Folder& folder,
                                               const std::vector<std::string>& names) {
     const auto done = folder.sub("done");
@@ -217,7 +217,7 @@ class FolderIn final : public Worker {
     const auto failed = folder.sub("failed");
     if (!failed) return fmt::format("{} cannot be moved: {}", name, failed.error().message);
     const std::string to = failed->free_name(name);
-    // The text is there before the file is, so that a file in `failed` always has one.
+    // Writes the text before it moves the file: each file in `failed` has its text.
     if (const auto written = failed->write(to + ".error.txt", told(name, error)); !written) {
       return fmt::format("{}: {}", name, written.error().message);
     }
@@ -225,11 +225,9 @@ class FolderIn final : public Worker {
     plant_.tell("file_refused",
                 fmt::format("{}: {}: {}", options_.name, name,
                             error.details.empty() ? error.message : error.details.front().message));
-    if (const auto moved = folder.move(name, *failed, to); !moved) return moved.error().message;
-    for (const std::string& beside : std::span(names).subspan(1)) {
-      if (const auto moved = folder.move(beside, *failed, beside); !moved) {
-        return moved.error().message;
-      }
+    for (const std::string& one : names) {
+      const auto moved = folder.move(one, *failed, one == name ? to : one);
+      if (!moved) return moved.error().message;
     }
     return std::nullopt;
   }
@@ -268,7 +266,7 @@ Result<std::string> read_glob(const JsonValue& item) {
   return invalid_field("must be a file name without a folder (* and ? allowed), such as *.csv");
 }
 
-/// An object of texts; `fault` returns the fault of one.
+/// The form of an object of texts; `fault` returns what is wrong with a member, or nothing.
 template <class Fault>
 auto texts_by(Fault fault) {
   using Word = std::pair<std::string, std::string>;

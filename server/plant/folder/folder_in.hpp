@@ -31,7 +31,7 @@ struct FolderInOptions {
   std::size_t most_entries = 100'000;  ///< of one look
 };
 
-/// Outward state of a file.
+/// What a folder shows of a file: a change of the file changes it.
 struct Look {
   std::int64_t size = 0;
   std::int64_t changed_ns = 0;
@@ -50,15 +50,11 @@ struct Look {
 /// content counts only if it is_unchanged() afterwards.
 class RestingFile {
  public:
-  /// @returns nothing if it is gone, or not a file. @errors StorageUnavailable: it cannot be read.
-  static Result<std::optional<RestingFile>> open(const Folder& folder, const std::string& name,
-                                                 const Look& look) {
-    auto file = TRY(folder.read(name));
-    if (!file) return std::optional<RestingFile>();
-    return std::optional(RestingFile(name, *std::move(file), look));
-  }
+  /// @param file is open for reading. @param look how it looked before it was opened
+  RestingFile(std::string name, Descriptor file, const Look& look)
+      : name_(std::move(name)), file_(std::move(file)), look_(look) {}
 
-  /// The bytes from the begin on. @errors StorageUnavailable. The file outlives it.
+  /// Reads the bytes from the beginning. @errors StorageUnavailable. The file outlives it.
   Read from_begin() const {
     return [this, at = off_t{0}](std::span<char> into) mutable -> Result<std::size_t> {
       for (;;) {
@@ -90,9 +86,6 @@ class RestingFile {
   }
 
  private:
-  RestingFile(std::string name, Descriptor file, const Look& look)
-      : name_(std::move(name)), file_(std::move(file)), look_(look) {}
-
   std::string name_;
   Descriptor file_;
   Look look_;
@@ -108,7 +101,7 @@ Result<std::optional<std::size_t>> take_file(const FolderInOptions& options, con
                                              std::string_view file_name, const RestingFile& file,
                                              const RestingFile* description);
 
-/// The errors of a file for its writer: lines and remedies.
+/// Returns the errors of a file as a text for the person who wrote it: lines and remedies.
 std::string told(std::string_view file_name, const Error& error);
 
 }  // namespace fitgauge::connections

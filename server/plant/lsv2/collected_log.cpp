@@ -4,8 +4,8 @@
 
 #include "nc/probing/measuring_record.hpp"
 #include "nc/program/control_disk.hpp"
+#include "plant/settings.hpp"
 #include "service/files/file_service.hpp"
-#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::connections {
 namespace {
@@ -31,13 +31,13 @@ struct CollectedLog {
   std::deque<std::string> texts{};
 };
 
-/// Content of a file.
+/// The results that were found in a file.
 struct Collected {
   std::vector<std::shared_ptr<CollectedLog>> logs{};
   std::vector<std::string> unread{};  ///< `line 5: …`
 };
 
-/// Source of a file and its limits.
+/// The source of a file, and the tables that judge its results.
 struct Origin {
   const MachineOptions& machine;
   const std::string& path;  ///< on the control
@@ -49,7 +49,7 @@ struct Origin {
 constexpr std::size_t kLongestText = 200;
 constexpr std::size_t kLongestComment = 2000;
 
-/// A control's clock shows the time of the zone this service is in.
+/// Returns the instant. A control's clock shows the time of the zone of this service.
 Timestamp instant(const sheet::WallTime& shown) {
   std::tm time{};
   ::gmtime_r(&shown.seconds, &time);
@@ -57,12 +57,12 @@ Timestamp instant(const sheet::WallTime& shown) {
   return Timestamp{std::int64_t{std::mktime(&time)} * kNanosecondsPerSecond};
 }
 
-/// A text that lives with the log, cut to the limit of a field.
+/// Stores a text in the log, cut to the limit of a field.
 std::string_view kept(CollectedLog& log, std::string_view text, std::size_t most = kLongestText) {
   return log.texts.emplace_back(first_characters(text, most));
 }
 
-/// Fields of every measurement of a file.
+/// Returns a measurement with the fields that all measurements of a file have.
 Measurement begun(CollectedLog& log, const Origin& origin) {
   Measurement measurement;
   measurement.received_at = origin.now;
@@ -72,9 +72,6 @@ Measurement begun(CollectedLog& log, const Origin& origin) {
   measurement.caller = kept(log, origin.machine.name);
   return measurement;
 }
-
-/// An angle or a figure of an axis has no place in a measurement.
-bool is_length(const LogValue& value) { return value.is_length && value.nominal.has_value(); }
 
 Measurement measurement_of(CollectedLog& log, const MeasuringLog& read, const LogValue& value,
                            const Origin& origin) {
@@ -103,7 +100,8 @@ std::shared_ptr<CollectedLog> collected(const MeasuringLog& read, const Origin& 
   for (const LogValue& value : read.values) {
     const auto quantity = probing::quantity_of(read.cycle, value.role == Role::Position);
     if (judges && !value.upper && !gauging::has_feature(quantity)) continue;
-    if (is_length(value)) {
+    // An angle or a figure of an axis has no place in a measurement.
+    if (value.is_length && value.nominal) {
       log->measurements.push_back(measurement_of(*log, read, value, origin));
     } else {
       ++log->values_kept;
@@ -141,9 +139,7 @@ class Fields {
   const PatternResult& result_;
 };
 
-Error field_error(std::string message) { return {ErrorCode::FieldInvalid, std::move(message)}; }
-
-/// The limits of a class of the tables.
+/// Judges a measurement by the limits that the tables give for its tolerance class.
 Result<void> judge_by_class(Measurement& measurement, CollectedLog& log, const Fields& fields,
                             const Origin& origin) {
   log.tables = TRY(origin.tables.tables());
@@ -156,7 +152,7 @@ Result<void> judge_by_class(Measurement& measurement, CollectedLog& log, const F
   return {};
 }
 
-/// `upper_um` and `lower_um` with the nominal size, or `upper_mm` and `lower_mm`.
+/// Returns the limits from `upper_um`, `lower_um` and the nominal size, or `upper_mm`, `lower_mm`.
 Result<std::optional<app::SizeLimits>> drawn_limits(const Fields& fields, Length nominal) {
   for (const bool as_deviation : {true, false}) {
     const char* const names[] = {as_deviation ? "upper_um" : "upper_mm",
@@ -165,7 +161,7 @@ Result<std::optional<app::SizeLimits>> drawn_limits(const Fields& fields, Length
     const auto upper = TRY(as_deviation ? fields.micrometres(names[0]) : fields.length(names[0]));
     const auto lower = TRY(as_deviation ? fields.micrometres(names[1]) : fields.length(names[1]));
     const Length base = as_deviation ? nominal : Length();
-    if (upper < lower) return field_error("the upper limit must not be below the lower limit");
+    if (upper < lower) return invalid_field("the upper limit must not be below the lower limit");
     return std::optional(app::SizeLimits{.upper = base + upper, .lower = base + lower});
   }
   return std::optional<app::SizeLimits>();
@@ -178,7 +174,7 @@ Result<void> judge_by_drawing(Measurement& measurement, const Fields& fields) {
   size.limits = TRY(drawn_limits(fields, size.nominal.value_or(measurement.measured)));
   const std::string_view feature = fields.text("feature");
   if (!feature.empty() && feature != "hole" && feature != "shaft") {
-    return field_error(fmt::format("feature must be one of: hole, shaft; got '{}'", feature));
+    return invalid_field(fmt::format("feature must be one of: hole, shaft; got '{}'", feature));
   }
   if (feature == "shaft") size.feature = iso286::Feature::Shaft;
   judge_size(measurement, size);
@@ -190,8 +186,8 @@ Result<void> take_time(Measurement& measurement, CollectedLog& log, const Fields
   if (!log.has_time) return {};
   const auto shown = log_reader::read_clock(fields.text("date"), fields.text("time"));
   if (!shown) {
-    return field_error(fmt::format("date and time must be DD-MM-YYYY and H:MM:SS; got '{} {}'",
-                                   fields.text("date"), fields.text("time")));
+    return invalid_field(fmt::format("date and time must be DD-MM-YYYY and H:MM:SS; got '{} {}'",
+                                     fields.text("date"), fields.text("time")));
   }
   measurement.measured_at = instant(*shown);
   return {};
@@ -203,7 +199,7 @@ Result<std::shared_ptr<CollectedLog>> collected(const PatternResult& result, con
   const Fields fields(result);
   Measurement measurement = begun(*log, origin);
   const auto measured = TRY(fields.length("measured_mm"));
-  if (measured <= Length()) return field_error("a measured size must be above 0");
+  if (measured <= Length()) return invalid_field("a measured size must be above 0");
   measurement.measured = measured;
   TRY(take_time(measurement, *log, fields));
   for (const app::MeasurementField& field : app::kLabels) {
@@ -271,7 +267,7 @@ Collected collect(const Origin& origin, const std::string& bytes) {
 
 constexpr std::size_t kMostUnderWay = 16;
 
-/// Not for a client: it shows that the log was not stored before.
+/// Marks a log as new when the writer stores it. No client gets this answer.
 class NewLog final : public app::Rendering {
  public:
   explicit NewLog(std::shared_ptr<CollectedLog> log) : log_(std::move(log)) {}

@@ -9,20 +9,16 @@ using control_link::DirectoryEntry;
 using control_link::LinkClient;
 using control_link::LinkFailure;
 
-bool is_directory(const DirectoryEntry& entry) {
-  return (entry.flags & (control_link::FileInformation::kDirectory |
-                         control_link::FileInformation::kDirectoryOfItnc)) != 0;
-}
-
 bool is_watched(const MachineOptions& machine, std::string_view folder,
                 const DirectoryEntry& entry) {
-  return !is_directory(entry) &&
+  constexpr auto kDirectory = DirectoryEntry::kDirectory | DirectoryEntry::kDirectoryOfItnc;
+  return (entry.flags & kDirectory) == 0 &&
          std::ranges::any_of(machine.paths, [&](const WatchedPath& watched) {
            return watched.folder == folder && matches_glob(watched.name, entry.name);
          });
 }
 
-/// A connection that may list and read.
+/// Connects to the control and logs in for lists and files.
 control_link::LinkResult<LinkClient> connect(const MachineOptions& machine,
                                              const std::stop_token& stop) {
   auto control = LinkClient::connect({.address = machine.address, .stop = stop});
@@ -35,7 +31,7 @@ control_link::LinkResult<LinkClient> connect(const MachineOptions& machine,
   return control;
 }
 
-/// Each once.
+/// Returns each watched folder once.
 std::vector<std::string> folders_of(const MachineOptions& machine) {
   std::vector<std::string> folders;
   for (const WatchedPath& path : machine.paths) {
@@ -80,7 +76,7 @@ class Collector final : public Worker {
     }
   }
 
-  /// One connection: everything that has changed. @returns why it failed.
+  /// Fetches everything that has changed, over one connection. @returns why it failed.
   std::optional<std::string> round(const std::stop_token& stop) {
     is_away_ = true;
     auto control = connect(options_, stop);
@@ -126,7 +122,7 @@ class Collector final : public Worker {
     const auto bytes =
         control.download(path, control_link::Transfer::Binary, options_.most_file_bytes);
     if (!bytes) {
-      // Deleted since it was listed.
+      // The file was deleted after it was listed.
       if (bytes.error().is_refusal(control_link::ControlError::NoFile)) return std::nullopt;
       return failed(path, bytes.error());
     }
@@ -154,7 +150,7 @@ class Collector final : public Worker {
     return std::nullopt;
   }
 
-  /// After anything but a refusal the talk is over.
+  /// Returns the message of a failure. After any failure but a refusal the connection is over.
   std::string failed(const std::string& path, const LinkFailure& failure) {
     is_away_ = failure.kind != LinkFailure::Kind::Refused;
     return path + ": " + failure.message;
@@ -175,7 +171,7 @@ Result<control_link::ControlAddress> read_address(std::string_view text) {
       fmt::format("address must be HOST or HOST:PORT; got '{}'", first_characters(text, 100)));
 }
 
-/// `TNC:\nc_prog\TCHPR*.TXT`; `/` separates as `\` does.
+/// Reads a path such as `TNC:\nc_prog\TCHPR*.TXT`; `/` separates folders as `\` does.
 Result<WatchedPath> read_watched(const JsonValue& item) {
   if (!item.is(JsonValue::Kind::String))
     return Error{ErrorCode::FieldType, "a path must be a text"};
@@ -198,7 +194,7 @@ std::unique_ptr<Worker> make(const MachineOptions& machine, const Plant& plant) 
   return std::make_unique<Collector>(machine, plant);
 }
 
-/// Logs in and lists the watched folders once. Waits.
+/// Logs in and lists the watched folders once. Waits for the control.
 ConnectionTest test_of(const MachineOptions& machine, const Plant&, const std::stop_token& stop) {
   auto control = connect(machine, stop);
   if (!control) return {.ok = false, .detail = control.error().message};

@@ -5,10 +5,10 @@ namespace {
 
 using gauging::Verdict;
 
-/// The log is kept for ever, so nothing is dropped: the largest number of the schema.
+/// The largest number of the schema: the log is kept for ever, so the buffer drops nothing.
 constexpr std::string_view kBufferSize = "4294967294";
 
-/// A key is an NMTOKEN.
+/// Returns the key of a characteristic, an NMTOKEN of XML.
 std::string key_of(std::string_view characteristic) {
   std::string key(characteristic.empty() ? std::string_view("size") : characteristic);
   std::ranges::replace_if(
@@ -39,7 +39,7 @@ std::uint64_t instance_of(const Agent& agent) {
   return std::uint64_t{number} + 1;
 }
 
-/// The description of the device is constant.
+/// Returns the attribute of the time when the description of the device changed: never.
 std::string model_change(const Agent& agent) {
   return fmt::format(R"(deviceModelChangeTime="{}")", format_rfc3339(agent.began));
 }
@@ -175,6 +175,11 @@ std::string devices_document(const Agent& agent) {
                     item.is_discrete ? R"( discrete="true")" : "",
                     is_table ? R"( representation="TABLE")" : "/");
   }
+  std::string cells;
+  for (const char* const key : {"MEASUREMENT_TYPE", "MEASUREMENT_UNITS", "MEASUREMENT_VALUE",
+                                "CHARACTERISTIC_STATUS", "UNCERTAINTY", "UNCERTAINTY_TYPE"}) {
+    cells += fmt::format("<CellDefinition key=\"{0}\" type=\"{0}\"/>\n", key);
+  }
   return head(agent, "Devices",
               fmt::format(R"({} bufferSize="{}" assetBufferSize="1" assetCount="{}")",
                           model_change(agent), kBufferSize, agent.has_asset ? 1 : 0)) +
@@ -182,19 +187,13 @@ std::string devices_document(const Agent& agent) {
 <Description manufacturer="fitgauge">Measured sizes with their verdicts</Description>
 <DataItems>
 {}<Definition><CellDefinitions>
-<CellDefinition key="MEASUREMENT_TYPE" type="MEASUREMENT_TYPE"/>
-<CellDefinition key="MEASUREMENT_UNITS" type="MEASUREMENT_UNITS"/>
-<CellDefinition key="MEASUREMENT_VALUE" type="MEASUREMENT_VALUE"/>
-<CellDefinition key="CHARACTERISTIC_STATUS" type="CHARACTERISTIC_STATUS"/>
-<CellDefinition key="UNCERTAINTY" type="UNCERTAINTY"/>
-<CellDefinition key="UNCERTAINTY_TYPE" type="UNCERTAINTY_TYPE"/>
-</CellDefinitions></Definition>
+{}</CellDefinitions></Definition>
 </DataItem>
 </DataItems>
 </Device></Devices>
 </MTConnectDevices>
 )",
-                     agent.origin, items);
+                     agent.origin, items, cells);
 }
 
 std::string error_document(const Agent& agent, std::string_view code, std::string_view message) {

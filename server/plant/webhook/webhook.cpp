@@ -61,29 +61,26 @@ bool is_reserved(std::string_view name) {
   return name.starts_with("webhook-") || std::ranges::find(kNames, name) != kNames.end();
 }
 
-std::string fault_of_header(std::string_view name, const JsonValue& value) {
+/// Makes a line of a request. connections.cpp has replaced null by the stored value.
+Result<std::string> read_header(std::string_view name, const JsonValue& value) {
   const auto is_token = [](char c) {
     return is_ascii_alphanumeric(c) ||
            std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos;
   };
   if (name.empty() || name.size() > kLongestHeader || !std::ranges::all_of(name, is_token)) {
-    return fmt::format("a header name must have 1 to {} letters, digits and -", kLongestHeader);
+    return invalid_field(
+        fmt::format("a header name must have 1 to {} letters, digits and -", kLongestHeader));
   }
-  if (is_reserved(ascii_lower(name))) return fmt::format("{} is set by the service", name);
-  if (value.is(JsonValue::Kind::Null)) return "no value is stored: give one";
+  if (is_reserved(ascii_lower(name))) {
+    return invalid_field(fmt::format("{} is set by the service", name));
+  }
+  if (value.is(JsonValue::Kind::Null)) return invalid_field("no value is stored: give one");
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
   if (!value.is(JsonValue::Kind::String) || value.text.empty() || value.text.size() > kLongestUrl ||
       std::ranges::any_of(value.text, is_control)) {
-    return fmt::format("a header value must be a text of 1 to {} bytes without control characters",
-                       kLongestUrl);
+    return invalid_field(fmt::format(
+        "a header value must be a text of 1 to {} bytes without control characters", kLongestUrl));
   }
-  return {};
-}
-
-/// A line of a request. A value null is the stored one (connections.cpp).
-Result<std::string> read_header(std::string_view name, const JsonValue& value) {
-  const std::string fault = fault_of_header(name, value);
-  if (!fault.empty()) return invalid_field(fault);
   return fmt::format("{}: {}", name, value.text);
 }
 
@@ -229,7 +226,7 @@ std::unique_ptr<Outlet> make(const WebhookOptions& options, const Plant& plant) 
   return std::make_unique<Webhook>(options, plant);
 }
 
-/// Posts one event `connection.test`.
+/// Posts one event `connection.test` to the receiver.
 ConnectionTest test_of(const WebhookOptions& options, const Plant& plant,
                        const std::stop_token& stop) {
   const Timestamp now = plant.clock.now();
