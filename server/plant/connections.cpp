@@ -69,7 +69,7 @@ void keep_secrets(JsonValue& body, const Definition& before) {
     if (secret != nullptr && body.find(name) == nullptr) body.members.emplace_back(name, *secret);
   };
   keep(kSecrets);
-  // The password goes over the line: only a caller who knows it may send it elsewhere.
+  // The broker receives the password: only a caller who knows it may send it to another broker.
   const bool is_same_broker = is_same(body, *known, "broker") && is_same(body, *known, "user") &&
                               is_same(body, *known, "ca_file");
   if (is_same_broker) keep(kPassword);
@@ -219,7 +219,7 @@ Result<bool> Connections::put(const std::string& name, std::string_view body,
   if (before) keep_secrets(json, *before);
   auto definition = TRY(read_definition(name, json, {.roots = plant_.folders}));
   if (const auto& follower = definition.settings.follower) {
-    // Stores its start before it exists, so that it misses nothing after the response.
+    // Stores the start before the connection exists: it misses nothing after the response.
     if (!before) TRY(forget_progress(plant_.documents, name));
     TRY(begin_progress(*follower, plant_));
   }

@@ -21,7 +21,7 @@ using api::JsonWriter;
 namespace schema = api::schema;
 using schema::Others;
 
-/// One of these words, as it is.
+/// A text that is one of these words.
 struct WordOf {
   std::vector<std::string_view> words;
 
@@ -34,7 +34,7 @@ struct Seconds {
   void write(JsonWriter& json, double from) const { json.fixed(from, 3); }
 };
 
-/// The place of its word among those of `state`.
+/// Returns the place of the connection's state in the list of words of `state`.
 int state_of(const ConnectionState& connection) {
   if (connection.is_stopped) return 4;
   if (hangs(connection, std::chrono::steady_clock::now())) return 3;
@@ -106,7 +106,7 @@ Result<void> write_connection(JsonWriter& json, const ConnectionState& connectio
   return {};
 }
 
-/// `folder_in`: FolderInConnection.
+/// Returns the name of the schema of a kind: FolderInConnection for `folder_in`.
 std::string component_of(std::string_view kind) {
   std::string component;
   for (std::size_t i = 0; i < kind.size(); ++i) {

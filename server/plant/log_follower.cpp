@@ -15,7 +15,7 @@ struct Page {
   app::ListPage end{};
 };
 
-/// @param see is called for each that matches the filter but for its verdict
+/// @param see is called for each measurement that matches all of the filter but its verdicts
 template <class See>
 Result<Page> read_page(app::MeasurementService& service, const LogFilter& filter,
                        std::int64_t after, std::size_t limit, const See& see) {
@@ -72,7 +72,7 @@ Result<Progress> begin_progress(const FollowerOptions& options, const Plant& pla
 
 namespace {
 
-/// Rung by commits; outlives the follower as long as a call is under way.
+/// Wakes the follower after a commit; outlives the follower as long as a call of it is running.
 class Bell final : public app::CommitListener {
  public:
   void committed() override { ring(); }
@@ -126,7 +126,7 @@ class LogFollower final : public Worker {
     }
     while (!stop.stop_requested() && !state().is_stopped) {
       guarded("connection", [&] {
-        // Events first, so that measurements stored before them are included.
+        // Reads events first, so that it also reads the measurements that were stored before them.
         auto has_read = read_events();
         if (has_read) has_read = read();
         if (!has_read || cannot_read_) {
@@ -160,7 +160,7 @@ class LogFollower final : public Worker {
     show();
     return true;
   }
-  /// Reads the next data, if there is room. @errors those of storage.
+  /// Reads the next measurements, if there is room. @errors those of storage.
   Result<void> read() {
     app::MeasurementService& log = plant_.measurements;
     if (pending_.size() >= kPage) {
@@ -273,7 +273,7 @@ class LogFollower final : public Worker {
     if (pending_.empty()) return 0;
     const std::int64_t age =
         plant_.clock.now().nanoseconds - (*pending_.front())->received_at.nanoseconds;
-    // After a kill, the planned delivery comes first, when all of it is read.
+    // After a kill, the planned delivery is sent first, as soon as all of it is read.
     if (progress_.planned > progress_.position) {
       const bool is_read = read_to_ >= progress_.planned || pending_.size() >= kPage;
       return is_read ? pending_.size() : 0;
@@ -299,7 +299,7 @@ class LogFollower final : public Worker {
     };
     return static_cast<std::size_t>(std::ranges::count_if(pending_, is_planned));
   }
-  /// @param measurements of it that went out
+  /// @param measurements how many measurements of the delivery went out
   void take(const Delivery& delivery, std::size_t measurements) {
     is_dirty_ = is_dirty_ || delivery.dealt_with > 0;
     for (const DeadLetter& letter : delivery.refused) {
@@ -363,7 +363,7 @@ class LogFollower final : public Worker {
   std::int64_t log_end_ = 0;  ///< of the log, when it was read last
   std::vector<Outgoing> pending_;
   std::vector<OutgoingEvent> pending_events_;
-  /// A characteristic and its machine.
+  /// A characteristic and the machine that made it.
   using Made = std::pair<std::optional<std::string>, std::optional<std::string>>;
   std::set<Made> made_;               ///< of the values since their offsets were found
   std::map<Made, std::string> told_;  ///< of these offsets

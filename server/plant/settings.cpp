@@ -8,7 +8,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Resolves the links of the existing part.
+/// Whether the folder is `root` or below it. Resolves the links of the part that exists.
 bool is_below(const fs::path& folder, const fs::path& root) {
   std::error_code failure;
   const fs::path inner = fs::weakly_canonical(folder, failure);

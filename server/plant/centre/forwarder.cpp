@@ -33,7 +33,7 @@ constexpr seconds kTimeout{60};
 constexpr std::size_t kLongestAnswer = std::size_t{64} << 10;
 constexpr std::size_t kLongestPage = std::size_t{64} << 20;
 
-/// The first line of the file. @returns false when it cannot be read.
+/// Reads the key, the first line of the file. @returns false if it cannot be read.
 bool read_key(const std::string& file, std::string& key) {
   const auto text = read_regular(file);
   if (text) key = trim(text->substr(0, text->find('\n')));
@@ -41,7 +41,7 @@ bool read_key(const std::string& file, std::string& key) {
 }
 
 constexpr seconds kBetweenQuestions{5};
-/// After a revision could not be stored: the cause may be gone.
+/// Pause before revisions are taken again from the first one, after one could not be stored.
 constexpr minutes kBetweenBeginnings{10};
 
 }  // namespace
@@ -74,7 +74,7 @@ Forwarder::State Forwarder::state() const {
   return state;
 }
 
-/// @returns false: the end has come.
+/// Waits, and counts waiting records meanwhile. @returns false after a request to stop.
 bool Forwarder::wait(const std::stop_token& stop, milliseconds time) {
   std::mutex mutex;
   std::condition_variable_any wake;
@@ -113,7 +113,7 @@ void Forwarder::follow(const CentreLink::GoesOn& goes_on) {
   noted_ = is_told ? *there->notes : noted;  // the centre ignores notes that it already has
 }
 
-/// @returns whether there is more.
+/// Takes one page of revisions. @returns whether there is another page.
 bool Forwarder::take_page(const CentreLink::GoesOn& goes_on, std::optional<Heard>& heard) {
   const std::string_view station = outbox_.newest_history();
   const http_client::HttpAnswer answer =
@@ -143,7 +143,7 @@ bool Forwarder::failed_to_follow(const std::string& why) {
   return false;
 }
 
-/// Counts waiting records during a call.
+/// Returns the function that a call asks whether to go on; it also counts waiting records.
 CentreLink::GoesOn Forwarder::goes_on(const std::stop_token& stop) {
   return [this, &stop] {
     look();
@@ -231,7 +231,7 @@ Forwarder::Sent Forwarder::answered(const http_client::HttpAnswer& answer, std::
                 fmt::format("{} {}", answer.status, detail));
 }
 
-/// The centre has more or fewer records than expected: continue there, if they are the same.
+/// The centre has more or fewer records than expected: continues there if they are equal to ours.
 Forwarder::Sent Forwarder::elsewhere(std::int64_t size, const std::string& root) {
   const auto bytes = tlog::from_base64(root);
   tlog::Hash there{};
@@ -265,7 +265,7 @@ Forwarder::Sent Forwarder::elsewhere(std::int64_t size, const std::string& root)
                           size));
 }
 
-/// Two folders continue one history: no more ids are given out.
+/// Two folders continue one history: from now on the service gives out no ids.
 Forwarder::Sent Forwarder::forked(const std::string& why) {
   outbox_.set_forked(
       fmt::format("the centre refuses the next records: {}. The service stores nothing, because "

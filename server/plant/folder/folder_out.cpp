@@ -40,7 +40,7 @@ std::string_view key_of(const app::Measurement& measurement, Split split) {
   return text.value_or("");
 }
 
-/// Characters of a file name; the numbers before it keep equal names apart.
+/// Returns the key in letters of a file name; the numbers before it keep equal keys apart.
 std::string plain(std::string_view key) {
   std::string name(key.substr(0, kLongestKeyInName));
   std::ranges::replace_if(
@@ -132,7 +132,7 @@ class FolderOut final : public Outlet {
     return {};
   }
 
-  /// A name that no file with another content has.
+  /// Returns a name that no file with another content has.
   std::string name_of(const File& file, const Folder& folder) const {
     std::string name =
         fmt::format("{}-{:012}-{:012}", options_.follower.name, file.first, file.last);
@@ -151,7 +151,7 @@ class FolderOut final : public Outlet {
   const Plant& plant_;
 };
 
-/// The form of a text in that field of a DFQ.
+/// The form of a text that is written in this field of a DFQ.
 auto part_text(std::size_t longest, int field) {
   return By{longest, [field](std::string_view text) -> Result<std::string> {
               if (text.empty()) return invalid_field("must be a text");

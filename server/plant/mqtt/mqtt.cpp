@@ -132,7 +132,7 @@ class Mqtt final : public Outlet {
   MqttLink link_;
 };
 
-/// The form of a topic without names.
+/// The form of a topic without {names} of fields.
 auto plain_topic(std::string_view name) {
   return By{kLongestTopic, [name](std::string_view text) -> Result<std::string> {
               const bool is_topic = text.size() <= kLongestTopic &&

@@ -16,7 +16,7 @@ constexpr int kKeepAliveSeconds = 30;
 constexpr std::chrono::seconds kConnectTime{10};
 constexpr std::chrono::seconds kLeaveTime{2};
 constexpr int kLoopMilliseconds = 1000;  ///< so that keep-alives and timeouts are seen to
-/// Maximum bytes of unread messages. A command has some hundred.
+/// Maximum bytes of unread messages. A command has a few hundred bytes.
 constexpr std::size_t kMostArrived = std::size_t{1} << 20;
 
 void initialise_library() {
@@ -251,7 +251,7 @@ class MqttClient::Loop {
            .qos = message->qos,
            .retain = message->retain});
       client.arrived_bytes_ += bytes_of(client.arrived_.back());
-      // Too many messages are unread: the newest count.
+      // Too many messages are unread: drops the oldest.
       while (client.arrived_bytes_ > kMostArrived) {
         client.arrived_bytes_ -= bytes_of(client.arrived_.front());
         client.arrived_.pop_front();
@@ -281,10 +281,10 @@ MqttClient::MqttClient(Broker broker, std::optional<MqttMessage> will, std::func
              [this, will = std::move(will)](const std::stop_token& stop) { run(will, stop); });
 }
 
-/// Runs also inside libmosquitto, through which no exception may pass.
+/// Tells the owner. libmosquitto also calls this, and no exception may pass through it.
 void MqttClient::wake() const noexcept { guarded("a listener of an MQTT connection", wake_); }
 
-/// The whole life of the thread.
+/// Everything that the thread does, from CONNECT to the end of the connection.
 void MqttClient::run(const std::optional<MqttMessage>& will, const std::stop_token& stop) {
   if (guarded("an MQTT connection", [&] { Loop(*this, will).run(stop); })) return;
   end("a defect of fitgauge ended the connection");

@@ -31,7 +31,7 @@ bool is_escaped(char32_t c) {
          (c >= 0xFDD0 && c <= 0xFDEF) || (c & 0xFFFE) == 0xFFFE;
 }
 
-/// The character at the front of valid UTF-8, and its number of bytes.
+/// Returns the first character of valid UTF-8, and its number of bytes.
 std::pair<char32_t, std::size_t> front_character(std::string_view text) {
   const auto first = static_cast<unsigned char>(text.front());
   const std::size_t size = first < 0x80 ? 1U : first < 0xE0 ? 2U : first < 0xF0 ? 3U : 4U;
@@ -42,7 +42,7 @@ std::pair<char32_t, std::size_t> front_character(std::string_view text) {
   return {c, std::min(size, text.size())};
 }
 
-/// Characters that a template may have unchanged.
+/// Whether a template may have all these characters as they are.
 bool is_literal(std::string_view text) {
   while (!text.empty()) {
     const auto [c, size] = front_character(text);

@@ -50,7 +50,7 @@ class PathReader {
     while (take(" ")) {
     }
   }
-  /// A prefix, as in `m:DataItem`, is passed over.
+  /// Reads a name without its prefix: `DataItem` of `m:DataItem`.
   std::string_view name() {
     const auto word = [this] {
       const auto end = std::ranges::find_if_not(

@@ -192,7 +192,7 @@ std::string_view code_of(const Error& error, int status) {
   return status == 405 || status == 406 ? "UNSUPPORTED" : "INVALID_REQUEST";
 }
 
-/// @param head what follows /mtconnect/: path and operation
+/// @param head the path after /mtconnect/, and the name of the operation
 void add_route(Routes& add, std::string_view head, const auto& handler, std::string_view summary,
                std::vector<http::Parameter> parameters = {}) {
   add(fmt::format("GET /mtconnect/{} viewer", head), handler,

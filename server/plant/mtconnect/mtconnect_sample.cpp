@@ -61,7 +61,7 @@ Result<Sampled> sampled(const Gathering& gathering, const Sample& sample,
   }
   if (!sample.backwards) return sampled(page.next ? mtconnect::part_sequence(*page.next) + 2 : end);
   if (page.next) return sampled(mtconnect::part_sequence(*page.next) - 1);
-  // The first sequence has nothing before it.
+  // Backwards, the first sequence is the last that is read.
   if (streams.count() < sample.count) streams.add_availability();
   return sampled(1);
 }
@@ -73,7 +73,7 @@ void read_sample(const Services& services, const Sample& sample,
   app::MeasurementQuery query;
   query.history = true;
   query.newest_first = sample.backwards;
-  // A list continues after the given row; 0: from its begin.
+  // The list continues after this row; 0: it starts at its beginning.
   std::int64_t behind = 0;
   if (sample.from) {
     const std::int64_t first = std::max<std::int64_t>(mtconnect::measurement_at(*sample.from), 1);
@@ -169,7 +169,7 @@ class SampleStream final : public http::BodyStream,
 }  // namespace
 
 mtconnect::Agent mtconnect_agent(const Services& services) {
-  // The gauge is there as long as its log is: since before the first measurement.
+  // The gauge exists as long as its log: since before the first measurement.
   return {.origin = services.log.origins().first(),
           .history = services.log.origin(),
           .now = services.clock.now(),

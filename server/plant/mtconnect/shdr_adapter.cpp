@@ -11,7 +11,7 @@ constexpr std::size_t kPage = 256;
 constexpr int kSendBuffer = 64 << 10;
 /// Counts are sent after this time without measurements.
 constexpr std::chrono::milliseconds kCountPause{200};
-/// Before the storage is asked again.
+/// Pause before the storage is read again after a failure.
 constexpr std::chrono::milliseconds kRetry{1000};
 
 Line shared(std::string line) { return std::make_shared<const std::string>(std::move(line)); }
@@ -52,7 +52,7 @@ std::string shdr_line(const Counts& counts, Timestamp at) {
   return line + '\n';
 }
 
-/// All but calls from outside runs on its thread. Results of the storage are posted there.
+/// All but the calls from outside runs on its thread, to which results of the storage are posted.
 class ShdrAdapter::Loop final : public app::CommitListener,
                                 public std::enable_shared_from_this<Loop> {
  public:
@@ -96,7 +96,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
   void take_in(http::Socket socket, const std::string& peer) {
     if (agents_.size() >= options_.most_agents) return tell(peer, "too many agents are connected");
     error_code ignored;
-    // Waiting bytes in the kernel are bounded too.
+    // The bytes that wait in the kernel are limited too.
     socket.set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);
     socket.set_option(asio::ip::tcp::no_delay(true), ignored);
     socket.set_option(asio::socket_base::keep_alive(true), ignored);

@@ -5,9 +5,9 @@
 namespace fitgauge::connections {
 namespace {
 
-/// Number after which the broker is asked for confirmation.
+/// Number of measurements after which the broker is asked for a confirmation.
 constexpr std::size_t kMostAtOnce = 64;
-/// Between two looks whether the primary host is there.
+/// Pause between two checks whether the primary host is online.
 constexpr std::chrono::seconds kHostPause{1};
 
 /// Each measurement is the data of a device. Data has QoS 0, as the specification requires, so a
@@ -38,7 +38,7 @@ class Sparkplug final : public Outlet {
       node_.tell(**outgoing);
     }
     node_.tell_position((*some.back())->row);
-    // Nobody is subscribed there; the response shows that the broker has everything before it.
+    // We have no subscription there: the answer shows that the broker has all earlier messages.
     const auto question = link_.client().unsubscribe(node_.topic("NDATA"));
     if (!link_.client().wait_settled(question, kLongestSilence, stop)) {
       if (!stop.stop_requested()) delivery.failure = link_.give_up("it does not answer");
@@ -78,7 +78,7 @@ class Sparkplug final : public Outlet {
                   : link_.give_up("it does not answer");
   }
 
-  /// Connected, the host is there, and all are born. @returns why not.
+  /// Connects if necessary, checks the host, and sends the births. @returns why it failed.
   Delivery prepare(const std::stop_token& stop) {
     Delivery delivery{.failure = connect(stop)};
     if (delivery.failure) return delivery;
@@ -112,10 +112,10 @@ class Sparkplug final : public Outlet {
     return true;
   }
 
-  /// The node dies, and the connection ends.
+  /// Sends the death of the node and ends the connection.
   void leave() {
     if (link_.is_up()) {
-      // Without a birth, no death is declared, and the will is dropped with the rest.
+      // A node that was not born sends no death; the broker drops the will.
       if (is_born_) link_.client().send(node_.death());
       link_.client().leave();
     }

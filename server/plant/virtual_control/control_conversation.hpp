@@ -41,7 +41,7 @@ class ControlConversation final : public Conversation {
       end_transfer();
       return refusal(replied.error());
     }
-    // A long path that does not fit in the smallest buffer has no answer.
+    // An answer with a path that is longer than the buffer cannot be sent.
     if (*replied && kHeadBytes + (*replied)->payload.size() >= buffer_) {
       return refusal(ControlError::BadFileName);
     }
@@ -53,18 +53,18 @@ class ControlConversation final : public Conversation {
  private:
   /// A response; none if the protocol has no response.
   using Reply = ControlResult<std::optional<Telegram>>;
-  /// C_FL, until T_FD.
+  /// A file that a client sends, from C_FL to T_FD.
   struct Receiving {
     ControlPath path;
     bool binary;
     std::string bytes{};
   };
-  /// R_FL and R_DR, until T_FD: makes the next part for each T_OK; none after the last.
+  /// Answers R_FL and R_DR: makes the next part for each T_OK; none after the last.
   using Sending = std::function<std::optional<Telegram>()>;
 
   /// The login that files need.
   static constexpr std::string_view kFile = "FILE";
-  /// The longest file, as over HTTP.
+  /// The longest file in bytes; the limit is the one of files over HTTP.
   static constexpr std::size_t kLongestFile = std::size_t{8} << 20;
 
   Reply reply(const Login& login) {
@@ -283,7 +283,7 @@ class ControlConversation final : public Conversation {
     const auto errors = state_.machine.errors();
     if (next_error_ >= errors.size()) return ControlError::NoNextError;
     const interpreter::RunMessage& error = errors[next_error_++];
-    // A telegram ends at the end of its buffer, and so does a long text.
+    // A telegram is not longer than its buffer, so a long text is cut.
     constexpr std::size_t kLongestText = 200;
     return encode(Fault{.number = error.number,
                         .text = std::string(first_characters(error.text, kLongestText))});

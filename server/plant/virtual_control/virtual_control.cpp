@@ -36,7 +36,7 @@ Result<void> bring(app::FileService& files, std::string_view path, const std::st
   return {};
 }
 
-/// The files of every control of that model, and the example programs.
+/// Stores the files that every control of this model has, and the example programs.
 Result<void> bring_files(app::FileService& files, const ControlModel& model,
                          const machine::Setup& setup) {
   // The iTNC 530 has the control's own files in the root, in capitals.
@@ -51,7 +51,7 @@ Result<void> bring_files(app::FileService& files, const ControlModel& model,
   return {};
 }
 
-/// Files of a run are on the disk at its end, as on a control.
+/// Stores the files that a run has written at its end, as a control does.
 void keep_files(app::FileService& files, const std::shared_ptr<app::ActiveRun>& run) {
   run->on_end([&files, run](const Result<app::FinishedRun>&) {
     const auto written = run->look(app::Look::StateAndFiles, {}).files;
@@ -84,7 +84,7 @@ Result<std::unique_ptr<VirtualControl>> start_virtual_control(VirtualControlOpti
                    .is_writable = options.is_writable,
                    .disk = VirtualDisk(files, runs),
                    .machine = MachineView(runs, std::move(options.setup), std::move(start))});
-  // The dialog language.
+  // The machine parameter of the dialog language.
   state->parameters.emplace(model->is_itnc ? "7230.0" : "CfgDisplayLanguage.ncLanguage",
                             model->is_itnc ? "0" : "ENGLISH");
   return LinkServer::start(

@@ -163,7 +163,7 @@ class VirtualDisk {
     TRY(find(path));
     const auto removed = wait_for<bool>(
         [&](auto done) { files_.remove(path, std::nullopt, {}, {}, std::move(done)); });
-    // A file of only the run: nothing is stored of it.
+    // A file that only the run has is not stored.
     if (!removed && removed.error() != ControlError::NoFile) return removed.error();
     hide(path);
     keep_directory(path.directory());
@@ -189,7 +189,7 @@ class VirtualDisk {
     return std::ranges::any_of(
         kEveryControls, [&](std::string_view each) { return ascii_iequals(each, directory); });
   }
-  /// The parent of a directory; of the root the root.
+  /// Returns the parent of a directory; the root is its own parent.
   static std::string_view parent_of(std::string_view directory) {
     directory.remove_suffix(1);
     const std::string_view parent = directory.substr(0, directory.rfind('\\') + 1);
@@ -229,7 +229,7 @@ class VirtualDisk {
     return found;
   }
 
-  /// Every file whose path begins so, by key.
+  /// Returns every file whose path begins with `prefix`, by key.
   ControlResult<std::map<std::string, DiskEntry>> files_below(std::string_view prefix) {
     const auto stored = TRY(wait_for<std::vector<app::DiskFile>>(
         [&](auto done) { files_.list(std::string(prefix), std::move(done)); }));

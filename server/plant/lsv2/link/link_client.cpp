@@ -286,7 +286,7 @@ LinkResult<void> LinkClient::upload(const std::string& path, std::string_view by
     std::erase(wire, '\r');
     std::ranges::replace(wire, '\n', '\0');
   }
-  // Without it the end is not answered, and whether the file was stored is not known.
+  // Without this the control does not answer the end, and nobody knows if the file is stored.
   const auto acknowledged = tell(SystemCommand{.command = SystemCommand::kAcknowledgeEnd});
   if (!acknowledged && acknowledged.error().kind != Kind::Refused) return acknowledged;
   TRY(tell(Upload{.path = path, .binary = transfer == Transfer::Binary}));

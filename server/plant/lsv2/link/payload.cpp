@@ -9,7 +9,7 @@ namespace {
 
 using boost::endian::endian_reverse;
 
-/// The next character of UTF-8 in Latin-1, else `?`; moves `text` past it.
+/// Returns the next character of UTF-8 in Latin-1, or `?`, and removes it from `text`.
 char latin1_character(std::string_view& text) {
   const auto first = static_cast<unsigned char>(text.front());
   text.remove_prefix(1);
