@@ -36,15 +36,6 @@ std::optional<Vec3> nearest_on_edge(const Vec3& at, Vec3 from, const First& firs
   return std::nullopt;
 }
 
-std::unique_ptr<const Solid> solid_of(const Block& f) { return std::make_unique<BlockSolid>(f); }
-std::unique_ptr<const Solid> solid_of(const Boss& f) { return std::make_unique<BossSolid>(f); }
-std::unique_ptr<const Solid> solid_of(const Plane& f) { return std::make_unique<PlaneSolid>(f); }
-std::unique_ptr<const Solid> solid_of(const Sphere& f) { return std::make_unique<SphereSolid>(f); }
-std::unique_ptr<const Solid> solid_of(const Surface& f) {
-  return std::make_unique<SurfaceSolid>(f);
-}
-std::unique_ptr<const Solid> solid_of(const Mesh& f) { return std::make_unique<MeshSolid>(f); }
-
 }  // namespace
 
 /// One solid less the bores after it.
@@ -67,7 +58,7 @@ struct Workpiece::Part {
     }
   };
 
-  std::unique_ptr<const Solid> solid;
+  Solid solid;
   std::vector<Cut> cuts;
   BoxTree tree;          ///< of the cuts, in its order
   double roughness = 0;  ///< the largest of the cuts
@@ -146,21 +137,21 @@ double Workpiece::Part::exact_distance(const Vec3& at, const Field& to_solid) co
 
   const Vec3 foot = largest.foot(at);
   const Cut* other = cut_at(foot, of);
-  const auto solid_field = [this](const Vec3& p) { return solid->field(p); };
+  const auto solid_field = [this](const Vec3& p) { return solid.field(p); };
   std::optional<Vec3> edge;
   if (of == nullptr) {
     if (other == nullptr) return largest.distance;
     edge = nearest_on_edge(at, foot, solid_field, [&](const Vec3& p) { return other->field(p); });
   } else {
     const auto cut_field = [&](const Vec3& p) { return of->field(p); };
-    if (solid->field(foot).distance > tolerance::kSamePoint) {
+    if (solid.field(foot).distance > tolerance::kSamePoint) {
       edge = nearest_on_edge(at, foot, solid_field, cut_field);
       other = of;
     } else if (other == nullptr) {
       return largest.distance;
     } else {
       edge = nearest_on_edge(at, foot, cut_field, [&](const Vec3& p) { return other->field(p); });
-      if (edge && solid->field(*edge).distance > tolerance::kSamePoint) return largest.distance;
+      if (edge && solid.field(*edge).distance > tolerance::kSamePoint) return largest.distance;
     }
   }
   if (!edge) return largest.distance;
@@ -174,7 +165,7 @@ double Workpiece::Part::exact_distance(const Vec3& at, const Field& to_solid) co
 /// touches.
 bool Workpiece::Part::is_behind(const Cut& cut, const Vec3& centre) const {
   const Vec3 foot = cut.field(centre).foot(centre);
-  return solid->field(foot).distance < 0 && cut_at(foot, &cut) == nullptr;
+  return solid.field(foot).distance < 0 && cut_at(foot, &cut) == nullptr;
 }
 
 /// Goes from one place to the next before which there is certainly no contact: to the solid as if
@@ -182,18 +173,18 @@ bool Workpiece::Part::is_behind(const Cut& cut, const Vec3& centre) const {
 /// material. Where neither helps (over the edge of a bore, beside lobes, a surface) the rest is
 /// traced.
 std::optional<double> Workpiece::Part::contact(const BallPath& ball, Allowance& allowance) const {
-  if (cuts.empty() && !solid->is_traced()) return solid->contact(ball);
+  if (cuts.empty() && !solid.is_traced) return solid.contact(ball);
   double way = 0;
   constexpr int kLegs = 16;
   for (int leg = 0; leg < kLegs; ++leg) {
     Vec3 at = ball.at(way);
-    Field to_solid = solid->field(at);
-    if (!solid->is_traced() && to_solid.distance - ball.radius > tolerance::kContact) {
-      const auto reached = solid->contact(ball.from(way));
+    Field to_solid = solid.field(at);
+    if (!solid.is_traced && to_solid.distance - ball.radius > tolerance::kContact) {
+      const auto reached = solid.contact(ball.from(way));
       if (!reached) return std::nullopt;
       way += *reached;
       at = ball.at(way);
-      to_solid = solid->field(at);
+      to_solid = solid.field(at);
     }
     double free = 0;
     const Cut* in = nullptr;
@@ -215,7 +206,7 @@ std::optional<double> Workpiece::Part::contact(const BallPath& ball, Allowance& 
   const auto traced = first_zero(
       [&](double ahead) {
         const Vec3 at = rest.at(ahead);
-        return distance(at, ball.radius, solid->field(at)) - ball.radius;
+        return distance(at, ball.radius, solid.field(at)) - ball.radius;
       },
       rest.longest, least_step(ball.radius), allowance);
   return traced ? std::optional(way + *traced) : std::nullopt;
@@ -225,7 +216,7 @@ void Workpiece::join(const Bore& bore) {
   const auto shared = std::make_shared<const BoreVoid>(bore);
   for (Part& part : parts_) {
     part.cuts.push_back(
-        {shared, shared->floor_top() <= part.solid->bottom() + tolerance::kSamePoint});
+        {shared, shared->floor_top() <= part.solid.box.min.z + tolerance::kSamePoint});
   }
 }
 
@@ -241,7 +232,7 @@ Workpiece::Workpiece(const std::vector<Feature>& features) {
   std::vector<Box> boxes;
   for (Part& part : parts_) {
     part.complete();
-    boxes.push_back(part.solid->box());
+    boxes.push_back(part.solid.box);
     // A touching ball may be beside it by a rounding.
     boxes.back().grow(tolerance::kSamePoint);
   }
@@ -262,7 +253,7 @@ double Workpiece::clearance(const Vec3& centre, double radius) const {
   tree_.near(centre, squared, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t k = begin; k < end; ++k) {
       const Part& part = parts_[k];
-      const Field to_solid = part.solid->field(centre);
+      const Field to_solid = part.solid.field(centre);
       if (to_solid.distance >= least) continue;
       least = std::min(least, part.distance(centre, radius, to_solid));
     }

@@ -7,9 +7,6 @@
 
 namespace fitgauge::machine {
 
-class Solid;
-class BoreVoid;
-
 /// The part on the table as a signed distance: features joined in order, bores removed from earlier
 /// features. Coordinates are fixed to the table. Immutable: thread-safe.
 class Workpiece {
