@@ -32,10 +32,9 @@ MachineResult<void> Control::call_tool(const ToolCall& call) {
   if (call.number && *call.number != 0) {
     const Tool* tool = state_.tools.find(*call.number);
     if (tool == nullptr) {
-      return make_fault(FaultKind::ToolUnknown, fmt::format("tool {}", *call.number));
+      return make_fault(FaultKind::ToolUnknown, "tool {}", *call.number);
     }
-    if (tool->locked)
-      return make_fault(FaultKind::ToolLocked, fmt::format("tool {}", *call.number));
+    if (tool->locked) return make_fault(FaultKind::ToolLocked, "tool {}", *call.number);
   }
   if (call.number) state_.tool = {*call.number, state_.tool.axis, call.dl, call.dr, call.dr2};
   if (call.axis) state_.tool.axis = call.axis;
@@ -45,7 +44,7 @@ MachineResult<void> Control::call_tool(const ToolCall& call) {
 
 MachineResult<void> Control::write_tool(const Tool& tool) {
   if (!is_finite({tool.l, tool.r, tool.r2}) || !is_finite({tool.dl, tool.dr, tool.dr2})) {
-    return make_fault(FaultKind::ValueInvalid, fmt::format("lengths of tool {}", tool.number));
+    return make_fault(FaultKind::ValueInvalid, "lengths of tool {}", tool.number);
   }
   state_.tools.write(tool);
   return {};
@@ -54,7 +53,7 @@ MachineResult<void> Control::write_tool(const Tool& tool) {
 MachineResult<void> Control::write_probe(const ProbeRow& row) {
   if (!is_finite({row.cal_of1, row.cal_of2, row.cal_ang}) ||
       !is_finite({row.feed, row.rapid, row.distance + row.set_up})) {
-    return make_fault(FaultKind::ValueInvalid, fmt::format("values of probe {}", row.number));
+    return make_fault(FaultKind::ValueInvalid, "values of probe {}", row.number);
   }
   state_.probes.write(row);
   return {};
@@ -63,16 +62,15 @@ MachineResult<void> Control::write_probe(const ProbeRow& row) {
 MachineResult<void> Control::write_preset(const Preset& preset) {
   const auto& [origin, rotation, offsets] = preset.frame;
   if (!is_finite(origin) || !is_finite(rotation) || !is_finite(offsets) || preset.number < 0) {
-    return make_fault(FaultKind::ValueInvalid, fmt::format("values of preset {}", preset.number));
+    return make_fault(FaultKind::ValueInvalid, "values of preset {}", preset.number);
   }
   if (preset.number > kLastPreset) {
-    return make_fault(
-        FaultKind::ValueInvalid,
-        fmt::format("preset {}: the last row of the table is {}", preset.number, kLastPreset));
+    return make_fault(FaultKind::ValueInvalid, "preset {}: the last row of the table is {}",
+                      preset.number, kLastPreset);
   }
   const Preset* old = state_.presets.find(preset.number);
   if (old != nullptr && old->locked) {
-    return make_fault(FaultKind::PresetLocked, fmt::format("preset {}", preset.number));
+    return make_fault(FaultKind::PresetLocked, "preset {}", preset.number);
   }
   state_.presets.write(preset);
   return {};
@@ -87,7 +85,7 @@ MachineResult<void> Control::write_tool_touch_probe(const ToolTouchProbe& tt) {
 
 MachineResult<void> Control::activate_preset(int number) {
   const Preset* preset = state_.presets.find(number);
-  if (preset == nullptr) return make_fault(FaultKind::PresetUnknown, fmt::format("row {}", number));
+  if (preset == nullptr) return make_fault(FaultKind::PresetUnknown, "row {}", number);
   state_.active_preset = number;
   state_.frames.reset_transformations();
   state_.frames.set_preset(preset->frame);
@@ -118,7 +116,7 @@ MachineResult<void> Control::set_kinematics(const Kinematics& kinematics) {
     if (!state_.ranges[index(axis.axis)])
       return make_fault(FaultKind::AxisMissing, name(axis.axis));
     if (!is_finite(axis.centre) || !is_finite(axis.direction)) {
-      return make_fault(FaultKind::ValueInvalid, fmt::format("kinematics of {}", name(axis.axis)));
+      return make_fault(FaultKind::ValueInvalid, "kinematics of {}", name(axis.axis));
     }
   }
   TRY(require(is_finite(kinematics.offset()), "offset of the kinematics"));
@@ -133,7 +131,7 @@ void Control::refresh_table() {
 
 MachineResult<void> Control::dwell(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0) {
-    return make_fault(FaultKind::ValueInvalid, fmt::format("a dwell of {} s", seconds));
+    return make_fault(FaultKind::ValueInvalid, "a dwell of {} s", seconds);
   }
   TRY(axes_->dwell(seconds, allowance_));
   spend(seconds);

@@ -10,7 +10,7 @@ constexpr double kLongestSeconds = 1e12;
 MachineResult<void> check_finite(const AxisWords& words) {
   for (const Axis axis : kAllAxes) {
     if (words[axis] && !std::isfinite(*words[axis])) {
-      return make_fault(FaultKind::ValueInvalid, fmt::format("{} is not a number", name(axis)));
+      return make_fault(FaultKind::ValueInvalid, "{} is not a number", name(axis));
     }
   }
   return {};
@@ -49,8 +49,8 @@ MachineResult<Vec3> Control::target_rotary(const LinearMove& move) const {
     rotary[letter] = state_.frames.rotary_to_machine(programmed, move.system)[letter];
     const double grid = range->hirth_grid_deg;
     if (grid > 0 && std::abs(std::remainder(rotary[letter], grid)) > tolerance::kOnTooth) {
-      return make_fault(FaultKind::HirthGrid, fmt::format("{}{:+.4f} with a grid of {} degrees",
-                                                          name(axis), rotary[letter], grid));
+      return make_fault(FaultKind::HirthGrid, "{}{:+.4f} with a grid of {} degrees", name(axis),
+                        rotary[letter], grid);
     }
   }
   return rotary;
@@ -186,8 +186,8 @@ MachineResult<void> Control::check_range(const Position& nose) const {
     const double at = nose[axis];
     if (at >= range->min - tolerance::kSamePoint && at <= range->max + tolerance::kSamePoint)
       continue;
-    return make_fault(FaultKind::AxisLimit, fmt::format("{}{:+.4f} is outside {} to {}", name(axis),
-                                                        at, range->min, range->max));
+    return make_fault(FaultKind::AxisLimit, "{}{:+.4f} is outside {} to {}", name(axis), at,
+                      range->min, range->max);
   }
   return {};
 }
@@ -203,7 +203,7 @@ void Control::stand_at(const Position& nose) {
 MachineResult<void> Control::check_feed(const Feed& feed) {
   const bool is_usable = feed.rate > 0 && (feed.is_rapid || std::isfinite(feed.rate));
   if (is_usable) return {};
-  return make_fault(FaultKind::FeedMissing, fmt::format("a feed of {} mm/min", feed.rate));
+  return make_fault(FaultKind::FeedMissing, "a feed of {} mm/min", feed.rate);
 }
 
 double Control::seconds_of(double way, const Feed& feed) const {
@@ -259,9 +259,8 @@ MachineResult<void> Control::travel(const Path& path, const Feed& feed, bool is_
   spend(seconds_of(*part * std::max(path.length, path.turn), feed));
   if (*part == 1) return {};
   const Vec3 centre = state_.ball_centre();
-  return make_fault(
-      FaultKind::Collision,
-      fmt::format("the ball stands at X{:+.4f} Y{:+.4f} Z{:+.4f}", centre.x, centre.y, centre.z));
+  return make_fault(FaultKind::Collision, "the ball stands at X{:+.4f} Y{:+.4f} Z{:+.4f}", centre.x,
+                    centre.y, centre.z);
 }
 
 }  // namespace fitgauge::machine

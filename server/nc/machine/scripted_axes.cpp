@@ -16,7 +16,7 @@ MachineResult<Position> ScriptedAxes::probe(const Vec3& direction, double distan
     return make_fault(FaultKind::Interrupted);
   }
   if (next_ == contacts_.size()) {
-    return make_fault(FaultKind::ScriptExhausted, fmt::format("all {} are used", next_));
+    return make_fault(FaultKind::ScriptExhausted, "all {} are used", next_);
   }
   const ScriptedContact& recorded = contacts_[next_++];
   if (!recorded.ball_centre) {
@@ -29,9 +29,9 @@ MachineResult<Position> ScriptedAxes::probe(const Vec3& direction, double distan
   const double beside = norm(way - direction * along);
   if (beside > tolerance_ || along < -tolerance_ || along > distance + tolerance_) {
     return make_fault(FaultKind::ScriptedDifferent,
-                      fmt::format("contact {} lies {:.4f} mm along the probing line and {:.4f} mm "
-                                  "beside it",
-                                  next_, along, beside));
+                      "contact {} lies {:.4f} mm along the probing line and {:.4f} mm "
+                      "beside it",
+                      next_, along, beside);
   }
   nose_.linear = nose_.linear + direction * std::clamp(along, 0.0, distance);
   return nose_;

@@ -11,7 +11,10 @@ constexpr double kFarthest = 1e7;
 
 static_assert(std::endian::native == std::endian::little, "STL is little-endian");
 
-Error refused(std::string message) { return {ErrorCode::FieldInvalid, std::move(message)}; }
+template <class... Parts>
+Error refused(fmt::format_string<Parts...> message, Parts&&... parts) {
+  return {ErrorCode::FieldInvalid, fmt::format(message, std::forward<Parts>(parts)...)};
+}
 
 std::string place_of(const Vec3& p) { return fmt::format("({}, {}, {})", p.x, p.y, p.z); }
 
@@ -28,7 +31,7 @@ Result<std::vector<Triangle>> read_binary(std::string_view bytes) {
                 sizeof corners);
     for (std::size_t k = 0; k < 9; ++k) triangles[t][k / 3][k % 3] = double{corners[k]};
     if (std::ranges::all_of(triangles[t], is_near)) continue;
-    return refused(fmt::format("triangle {} has a corner that is not a point", t + 1));
+    return refused("triangle {} has a corner that is not a point", t + 1);
   }
   return triangles;
 }
@@ -85,8 +88,8 @@ class TextReader {
 
  private:
   Error expected(std::string_view what, std::string_view found) const {
-    return refused(fmt::format("line {}: expected {}, found '{}'", words_.line(), what,
-                               found.empty() ? "the end of the file" : found.substr(0, 40)));
+    return refused("line {}: expected {}, found '{}'", words_.line(), what,
+                   found.empty() ? "the end of the file" : found.substr(0, 40));
   }
 
   Result<void> word(std::string_view lower) {
@@ -116,7 +119,7 @@ class TextReader {
     for (Vec3& corner : triangle) {
       TRY(word("vertex"));
       corner = TRY(numbers());
-      if (!is_near(corner)) return refused(fmt::format("line {}: too far away", words_.line()));
+      if (!is_near(corner)) return refused("line {}: too far away", words_.line());
     }
     TRY(word("endloop"));
     return word("endfacet");
@@ -188,7 +191,7 @@ Result<void> check_closed(const std::vector<Triangle>& triangles) {
     constexpr double kFlat = 1e-14;  // of its sides: the cross product is rounding
     const double longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
     if (norm(cross(b - a, c - a)) > kFlat * longest * longest) continue;
-    return refused(fmt::format("is degenerate: triangle {} at {} has no area", t + 1, place_of(a)));
+    return refused("is degenerate: triangle {} at {} has no area", t + 1, place_of(a));
   }
   const std::vector<Edge> edges = edges_of(triangles);
   for (auto begin = edges.begin(); begin != edges.end();) {
@@ -200,17 +203,16 @@ Result<void> check_closed(const std::vector<Triangle>& triangles) {
       const std::string edge = fmt::format("the edge from {} to {}", corner(place),
                                            corner(place - place % 3 + (place + 1) % 3));
       if ((end - begin) % 2 == 1) {
-        return refused(
-            fmt::format("is open: {} of triangle {} has no neighbour", edge, place / 3 + 1));
+        return refused("is open: {} of triangle {} has no neighbour", edge, place / 3 + 1);
       }
-      return refused(fmt::format("is inverted in part: triangles {} and {} both run along {}",
-                                 place / 3 + 1, (begin + 1)->place / 3 + 1, edge));
+      return refused("is inverted in part: triangles {} and {} both run along {}", place / 3 + 1,
+                     (begin + 1)->place / 3 + 1, edge);
     }
     begin = end;
   }
   const double inside = volume(triangles);
   if (inside > 0) return {};
-  return refused(fmt::format("is inverted: its volume is {}; turn its triangles round", inside));
+  return refused("is inverted: its volume is {}; turn its triangles round", inside);
 }
 
 double volume(const std::vector<Triangle>& triangles) {

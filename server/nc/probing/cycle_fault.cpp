@@ -3,14 +3,6 @@
 #include "log_templates.hpp"
 
 namespace fitgauge::probing {
-namespace {
-
-std::string with_detail(std::string_view text, std::string_view detail) {
-  return detail.empty() ? std::string(text) : fmt::format("{}: {}", text, detail);
-}
-
-}  // namespace
-
 std::string_view error_text(int number) {
   constexpr int kFirst = 1000;
   constexpr std::string_view kTexts = templates::error_texts::all;
@@ -22,19 +14,13 @@ std::string_view error_text(int number) {
 }
 
 CycleFault nc_error(int number, std::string_view detail) {
-  return {CycleFaultKind::Error, number, with_detail(error_text(number), detail)};
+  std::string text(error_text(number));
+  if (!detail.empty()) text += fmt::format(": {}", detail);
+  return {machine::FaultKind::Error, number, std::move(text)};
 }
 
 CycleFault tolerance_stop(int number) {
-  return {CycleFaultKind::ToleranceStop, number, std::string(error_text(number))};
-}
-
-CycleFault from_machine(const machine::MachineFault& fault) {
-  return {CycleFaultKind::Error, fault.number, fault.text, fault.kind};
-}
-
-void throw_bad_cycle_result(const CycleFault& fault) {
-  throw std::logic_error(fmt::format("a failed cycle was read: {} {}", fault.number, fault.text));
+  return {machine::FaultKind::Stop, number, std::string(error_text(number))};
 }
 
 }  // namespace fitgauge::probing

@@ -29,20 +29,20 @@ std::vector<Place> Channel::chain() const {
 
 NcResult<void> Channel::programmed_stop(std::string reason) {
   machine().stop(reason);
-  if (options.on_stop == OnStop::End) return NcError{NcErrorKind::Stop, 0, std::move(reason)};
+  if (options.on_stop == OnStop::End) return NcError{FaultKind::Stop, 0, std::move(reason)};
   return log.report(MessageKind::Stop, 0, std::move(reason), place());
 }
 
 NcResult<ControlPath> Channel::resolve(std::string_view written) const {
   auto path = ControlPath::resolve(written, linked().path());
-  return path ? NcResult<ControlPath>(*std::move(path)) : from_error(path.error());
+  return path ? NcResult<ControlPath>(*std::move(path)) : nc_error(path.error());
 }
 
 NcResult<ControlPath> Channel::resolve_printed(std::string_view written) const {
   const bool is_name = written.find_first_of("\\/:") == std::string_view::npos;
   if (!is_name || !options.print_folder) return resolve(written);
   auto path = ControlPath::resolve(written, *options.print_folder);
-  return path ? NcResult<ControlPath>(*std::move(path)) : from_error(path.error());
+  return path ? NcResult<ControlPath>(*std::move(path)) : nc_error(path.error());
 }
 
 NcResult<ControlPath> Channel::resolve_program(std::string_view written) const {
@@ -51,9 +51,7 @@ NcResult<ControlPath> Channel::resolve_program(std::string_view written) const {
 }
 
 NcResult<std::shared_ptr<const LinkedProgram>> Channel::load_program(const ControlPath& path) {
-  const auto missing = [&] {
-    return nc_error(fmt::format("program {} does not exist", path.text()));
-  };
+  const auto missing = [&] { return nc_error("program {} does not exist", path.text()); };
   const auto revision = files.revision(path);
   if (!revision) return missing();
   std::shared_ptr<const LinkedProgram>& known = loaded_[path.key() + '|' + *revision];
@@ -67,8 +65,8 @@ NcResult<std::shared_ptr<const LinkedProgram>> Channel::load_program(const Contr
   if (program == nullptr) {
     const auto first = std::ranges::find(linked->diagnostics, klartext::Severity::Error,
                                          &klartext::Diagnostic::severity);
-    return nc_error(fmt::format("program {} has errors, the first in line {}: {}", path.text(),
-                                first->range.begin.line, first->message));
+    return nc_error("program {} has errors, the first in line {}: {}", path.text(),
+                    first->range.begin.line, first->message);
   }
   return known = program;
 }

@@ -39,6 +39,10 @@ class Channel {
   /// STOP, M0, M1: reported; the run continues, or ends by `on_stop`.
   NcResult<void> programmed_stop(std::string reason);
   NcResult<void> note(std::string text) { return log.note(std::move(text), place()); }
+  template <class First, class... Rest>
+  NcResult<void> note(fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest) {
+    return note(fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
 
   /// A path as the program that runs names it.
   NcResult<ControlPath> resolve(std::string_view written) const;

@@ -11,9 +11,9 @@ constexpr std::size_t kMostAside = 32;
 
 NcError too_large(double radius, Vec2 at, std::string_view where) {
   return nc_error(1003,
-                  fmt::format("a tool of radius {:.4f} mm does not fit into the {} at {:.4f}, "
-                              "{:.4f}",
-                              radius, where, at.x, at.y));
+                  "a tool of radius {:.4f} mm does not fit into the {} at {:.4f}, "
+                  "{:.4f}",
+                  radius, where, at.x, at.y);
 }
 
 /// Whether the centre of the tool moves forward from `start` to `end` along an offset curve.
@@ -91,8 +91,7 @@ NcResult<void> check_scaling(const machine::MachineState& state, const WorkingPl
                              std::string_view what) {
   const Vec3 factor = state.frames.scaling().factor;
   if (factor[plane.first] == factor[plane.second]) return {};
-  return nc_error(
-      1108, fmt::format("{} not available in a plane whose axes are scaled differently", what));
+  return nc_error(1108, "{} not available in a plane whose axes are scaled differently", what);
 }
 
 double CutterPath::radius(const machine::Machine& machine) {
@@ -101,15 +100,15 @@ double CutterPath::radius(const machine::Machine& machine) {
 
 NcResult<void> CutterPath::move(machine::Machine& machine, const Element& element) {
   if (!element.curve.is_arc()) {
-    return checked(machine.move({element.target, element.feed, element.system}));
+    return machine.move({element.target, element.feed, element.system});
   }
   const WorkingPlane& plane = element.plane;
   TRY(check_scaling(machine.state(), plane, "an arc is"));
   machine::Vec3 end = plane.with(machine.position().linear, element.curve.end);
   const auto normal = machine::index(plane.normal);
   if (const auto& height = element.target.values[normal]) end[normal] = *height;
-  return checked(machine.move_arc({end, plane.with(end, *element.curve.centre),
-                                   element.curve.sweep_deg, plane.normal, element.feed}));
+  return machine.move_arc({end, plane.with(end, *element.curve.centre), element.curve.sweep_deg,
+                           plane.normal, element.feed});
 }
 
 void CutterPath::begin(Vec2 centre, int side) {

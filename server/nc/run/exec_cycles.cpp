@@ -1,4 +1,5 @@
 #include "nc/program/cycles.hpp"
+#include "nc/program/diagnose.hpp"
 #include "nc/program/linked_program.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/frame_commands.hpp"
@@ -44,15 +45,13 @@ class ChannelCycleHost final : public probing::CycleHost {
   Timestamp now() const override { return channel_.now(); }
 
   probing::CycleResult<void> append_log(std::string_view name, std::string_view text) override {
-    const auto path = channel_.resolve_printed(name);
-    if (!path) return reported(path.error());
-    return reported(channel_.files.append(*path, text));
+    const auto path = TRY(channel_.resolve_printed(name));
+    return reported(channel_.files.append(path, text));
   }
 
   probing::CycleResult<void> write_log(std::string_view name, std::string_view text) override {
-    const auto path = channel_.resolve_printed(name);
-    if (!path) return reported(path.error());
-    return reported(channel_.files.write(*path, std::string(text)));
+    const auto path = TRY(channel_.resolve_printed(name));
+    return reported(channel_.files.write(path, std::string(text)));
   }
 
   void stop(std::string_view reason) override {
@@ -94,10 +93,7 @@ class ChannelCycleHost final : public probing::CycleHost {
   }
 
   probing::CycleResult<probing::KinematicsRecords> kinematics_records() override {
-    auto records = read_kinematics_records(channel_.files, channel_.budget.allowance());
-    if (records) return *std::move(records);
-    return probing::CycleFault{probing::CycleFaultKind::Error, records.error().number,
-                               records.error().text};
+    return read_kinematics_records(channel_.files, channel_.budget.allowance());
   }
 
   probing::CycleResult<void> keep_kinematics(const probing::KinematicsRecords& records) override {
@@ -108,12 +104,9 @@ class ChannelCycleHost final : public probing::CycleHost {
   const std::optional<NcError>& failure() const { return failure_; }
 
  private:
-  /// A failure as a cycle returns it; its kind (a budget) is stored here.
-  probing::CycleResult<void> reported(const NcResult<void>& done) {
-    if (done) return {};
+  probing::CycleResult<void> reported(NcResult<void> done) {
     keep(done);
-    return probing::CycleFault{probing::CycleFaultKind::Error, done.error().number,
-                               done.error().text};
+    return done;
   }
 
   void keep(const NcResult<void>& done) {
@@ -131,22 +124,21 @@ NcResult<void> note_short_travel(Channel& channel, const probing::Arguments& arg
   const double clearance = probe->data.set_up + arguments.number(320);
   if (probe->data.distance >= clearance) return {};
   return channel.note(
-      fmt::format("DIST ({} mm) is shorter than SET_UP + Q320 ({} mm): the probe stops before the "
-                  "nominal surface",
-                  probe->data.distance, clearance));
+      "DIST ({} mm) is shorter than SET_UP + Q320 ({} mm): the probe stops before the "
+      "nominal surface",
+      probe->data.distance, clearance);
 }
 
 NcResult<void> run_probing(Channel& channel, const probing::TouchProbeCycle& cycle,
                            probing::Arguments arguments) {
-  if (auto completed = arguments.complete(); !completed) return from_cycle(completed.error());
+  TRY(arguments.complete());
   TRY(note_short_travel(channel, arguments));
   channel.active_cycle.last_probing = cycle.descriptor.number;
   const MovedByCycle moved(channel, cycle.descriptor.number);
   ChannelCycleHost host(channel);
-  const auto done = probing::run_cycle(cycle, std::move(arguments), channel.machine(), host);
+  auto done = probing::run_cycle(cycle, std::move(arguments), channel.machine(), host);
   if (host.failure()) return *host.failure();
-  if (!done) return from_cycle(done.error());
-  return {};
+  return done;
 }
 
 NcResult<probing::Arguments> arguments_of(Channel& channel, const klartext::Cycle& cycle,
@@ -164,7 +156,7 @@ NcResult<probing::Arguments> arguments_of(Channel& channel, const klartext::Cycl
 NcResult<void> define_globally(Channel& channel, const klartext::Cycle& cycle,
                                const BoundCycle& bound) {
   auto arguments = TRY(arguments_of(channel, cycle, bound));
-  if (auto completed = arguments.complete(); !completed) return from_cycle(completed.error());
+  TRY(arguments.complete());
   for (const probing::CycleParameter& parameter : bound.global->parameters) {
     channel.predefined[static_cast<int>(parameter.id)] = arguments.number(parameter.id);
   }
@@ -192,10 +184,11 @@ NcResult<void> define(Channel& channel, MachiningDefinition definition) {
 /// A cycle that only the builder of the machine knows.
 NcResult<Next> run_builders(Channel& channel, klartext::CycleFamily family, int number) {
   if (family == klartext::CycleFamily::GlobalDef) {
-    return nc_error(fmt::format("cycle GLOBAL DEF {} is not available", number));
+    return nc_error("cycle GLOBAL DEF {} is not available", number);
   }
   const BuilderAction* action = channel.options.builder.cycle(number);
-  if (action == nullptr) return unknown_cycle(family == klartext::CycleFamily::TchProbe, number);
+  if (action == nullptr)
+    return nc_error(cycle_hint(family == klartext::CycleFamily::TchProbe, number));
   if (action->program) return call_program(channel, *action->program);
   channel.active_cycle.definition = IgnoredCycle{};
   return Next{};
@@ -275,8 +268,8 @@ NcResult<Next> call_at_position(Channel& channel, const MotionWords& words) {
       TRY(motion.to_height(clearance, machine::Feed::rapid()));
   }
   const auto feed = words.feed.value_or(machine::Feed::rapid());
-  auto moved = checked(channel.machine().move({target, feed}));
-  auto next = moved ? call_active_cycle(channel) : NcResult<Next>(moved.error());
+  const auto moved = channel.machine().move({target, feed});
+  auto next = moved ? call_active_cycle(channel) : moved.error();
   if (is_shifted) machining->values[203] = surface;
   return next;
 }

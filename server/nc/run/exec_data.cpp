@@ -31,7 +31,7 @@ using klartext::QRef;
 NcResult<QRef> after(QRef first, std::size_t count) {
   const std::size_t place = first.number + count;
   if (place >= parameter_count(first.space)) {
-    return nc_error(fmt::format("there is no parameter {} places after {}", count, name(first)));
+    return nc_error("there is no parameter {} places after {}", count, name(first));
   }
   return QRef{first.space, static_cast<std::uint16_t>(place)};
 }
@@ -48,8 +48,8 @@ NcResult<void> execute(Channel& channel, const klartext::TableWrite& write) {
   TRY(channel.tables.write(write.first, place.row, place.columns, channel.length_unit()));
   for (const std::string_view table : {"toolturn.trn", "tchprobe.tp", "preset.pr"}) {
     if (!ascii_iequals(channel.tables.open_name(), table)) continue;
-    return channel.note(fmt::format(
-        "FN 27 changes the file {}: this run keeps the values that it began with", table));
+    return channel.note("FN 27 changes the file {}: this run keeps the values that it began with",
+                        table);
   }
   return {};
 }
@@ -85,9 +85,8 @@ NcResult<void> execute(Channel& channel, const klartext::CircleData& data) {
   }
   std::vector<probing::Point2> points;
   for (std::size_t i = 0; i < count; i += 2) points.push_back({coordinates[i], coordinates[i + 1]});
-  const auto circle = probing::fit_circle(points);
-  if (!circle) return from_cycle(circle.error());
-  const std::array results{circle->centre.x, circle->centre.y, circle->radius};
+  const auto circle = TRY(probing::fit_circle(points));
+  const std::array results{circle.centre.x, circle.centre.y, circle.radius};
   for (std::size_t i = 0; i < results.size(); ++i) {
     const auto target = TRY(after(data.target, i));
     TRY(channel.parameters.set(target, results[i]));

@@ -23,8 +23,7 @@ NcResult<std::uint32_t> find_label(Channel& channel, const Label& label) {
     if (numbered > 0) found = channel.linked().label(static_cast<std::uint32_t>(numbered));
   }
   if (found) return *found;
-  return nc_error(
-      fmt::format("label {} of {} is not defined in this program", shown, name(parameter)));
+  return nc_error("label {} of {} is not defined in this program", shown, name(parameter));
 }
 
 }  // namespace

@@ -203,7 +203,7 @@ NcResult<void> execute(Channel& channel, const klartext::FunctionTcpm& tcpm) {
   channel.turns_along_vector = says("PATHCTRL VECTOR");
   machine::Modes modes = state.modes;
   modes.tcpm = tcpm.active;
-  return checked(channel.machine().set_modes(modes));
+  return channel.machine().set_modes(modes);
 }
 
 }  // namespace fitgauge::interpreter

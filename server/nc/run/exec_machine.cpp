@@ -15,13 +15,13 @@ NcResult<int> tool_number(Channel& channel, const Expr& tool) {
   if (is_text(tool)) {
     const auto name = TRY(text(channel, tool));
     const machine::Tool* found = channel.machine().state().tools.find(name);
-    if (found == nullptr) return nc_error(1092, fmt::format("tool \"{}\"", name));
+    if (found == nullptr) return nc_error(1092, "tool \"{}\"", name);
     return found->number;
   }
   const auto value = TRY(number(channel, tool));
   if (value != std::floor(value))
-    return nc_error(1092, fmt::format("tool {}: the tool table has no indexed rows here", value));
-  if (value < 0 || value > 32767) return nc_error(1093, fmt::format("tool {}", value));
+    return nc_error(1092, "tool {}: the tool table has no indexed rows here", value);
+  if (value < 0 || value > 32767) return nc_error(1093, "tool {}", value);
   return static_cast<int>(value);
 }
 
@@ -32,11 +32,10 @@ NcResult<void> read_written_tools(Channel& channel) {
     machine::Tool tool = found != nullptr ? *found : machine::Tool{};
     tool.number = number;
     if (set_tool_value(tool, nr, value) == ToolWrite::OutOfRange) {
-      return nc_error(1093, fmt::format("tool {}: tool.t holds {} in a column of whole numbers",
-                                        number, value));
+      return nc_error(1093, "tool {}: tool.t holds {} in a column of whole numbers", number, value);
     }
     TRY(note_lathe_value(channel, tool, nr));
-    TRY(checked(channel.machine().write_tool(tool)));
+    TRY(channel.machine().write_tool(tool));
   }
   return {};
 }
@@ -51,19 +50,19 @@ using klartext::Motion;
 NcResult<void> note_entry(Channel& channel) {
   if (!std::exchange(channel.contour.has_entered_part, false)) return {};
   const auto& state = channel.machine().state();
-  return channel.note(fmt::format(
-      "tool {} enters the part {}", state.tool.number,
-      state.modes.turns() ? "in rapid traverse: the simulation removes no material, so check "
+  return channel.note("tool {} enters the part {}", state.tool.number,
+                      state.modes.turns()
+                          ? "in rapid traverse: the simulation removes no material, so check "
                             "whether it is gone there"
-                          : "with a standing spindle: give its speed S, and M3 or M4 before"));
+                          : "with a standing spindle: give its speed S, and M3 or M4 before");
 }
 
 NcResult<void> note_lathe_tool(Channel& channel) {
   const machine::Tool* tool = channel.machine().state().active_tool();
   if (tool == nullptr || !tool->lathe || tool->lathe->xl + tool->lathe->dxl == 0) return {};
-  return channel.note(fmt::format(
+  return channel.note(
       "tool {} is a lathe tool: positioning blocks move the spindle axis here, without XL",
-      tool->number));
+      tool->number);
 }
 
 }  // namespace
@@ -96,7 +95,7 @@ NcResult<void> execute(Channel& channel, const klartext::ToolCall& call) {
       default: break;
     }
   }
-  TRY(checked(channel.machine().call_tool(command)));
+  TRY(channel.machine().call_tool(command));
   TRY(note_lathe_tool(channel));
   const auto words = TRY(read_words(channel, call.words));
   if (words.feed && !words.feed->is_rapid) {
@@ -122,7 +121,7 @@ NcResult<void> execute(Channel& channel, const klartext::ToolDefinition& definit
     const auto value = TRY(interpreter::number(channel, word.value));
     (word.letter == Letter::L ? tool.l : tool.r) = value * channel.length_unit();
   }
-  return checked(channel.machine().write_tool(tool));
+  return channel.machine().write_tool(tool);
 }
 
 NcResult<Next> execute(Channel& channel, const Motion& motion) {
@@ -163,7 +162,7 @@ NcResult<void> execute(Channel& channel, const klartext::Dwell& dwell) {
     if (rpm <= 0) return nc_error(1020, "FUNCTION DWELL REV needs a speed of the spindle");
     seconds = value * 60 / rpm;
   }
-  return checked(channel.machine().dwell(seconds));
+  return channel.machine().dwell(seconds);
 }
 
 }  // namespace fitgauge::interpreter

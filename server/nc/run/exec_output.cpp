@@ -90,7 +90,7 @@ bool is_device(std::string_view target) {
 NcResult<void> execute(Channel& channel, const klartext::ErrorStop& stop) {
   const auto code = TRY(whole(channel, stop.number));
   if (code >= 1000 && code < 1200 && !probing::error_text(code).empty()) return nc_error(code);
-  return NcError{NcErrorKind::Error, code, fmt::format("FN 14: Error code {}", code)};
+  return NcError{FaultKind::Error, code, fmt::format("FN 14: Error code {}", code)};
 }
 
 NcResult<void> execute(Channel& channel, const klartext::Print& print) {
@@ -115,15 +115,13 @@ NcResult<void> execute(Channel& channel, const klartext::FormattedPrint& print) 
     for (const std::string& line : printed.lines) TRY(channel.log.print(line));
     return {};
   }
-  if (is_device(target))
-    return channel.note(fmt::format("FN 16: nothing is connected to {}", target));
+  if (is_device(target)) return channel.note("FN 16: nothing is connected to {}", target);
   const auto file = TRY(channel.resolve_printed(target));
   return channel.printer.print(printed, file);
 }
 
 NcResult<void> execute(Channel& channel, const klartext::ExternalFunction& function) {
-  return channel.note(
-      fmt::format("FN {} reaches outside of the program and has no effect here", function.fn));
+  return channel.note("FN {} reaches outside of the program and has no effect here", function.fn);
 }
 
 NcResult<void> execute(Channel& channel, const klartext::BlankForm&) {
@@ -145,7 +143,7 @@ NcResult<void> execute(Channel& channel, const klartext::BlankForm&) {
 NcResult<void> execute(Channel& channel, const klartext::WaitFor& wait) {
   const std::string_view condition = channel.program().text(wait.condition);
   if (condition.empty() || condition == "SYNC") return {};
-  return channel.note(fmt::format("FN 20: WAIT FOR {} does not wait here", condition));
+  return channel.note("FN 20: WAIT FOR {} does not wait here", condition);
 }
 
 }  // namespace fitgauge::interpreter

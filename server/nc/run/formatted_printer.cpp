@@ -64,7 +64,7 @@ std::string integer_text(double value, const MaskPlaceholder& placeholder) {
 NcResult<std::string> character_text(double value, const MaskPlaceholder& placeholder) {
   // Codes beyond Latin-1 are not in the code page of a control.
   if (value < 1 || value > 255) {
-    return nc_error(fmt::format("%C: {} is not a character code", value));
+    return nc_error("%C: {} is not a character code", value);
   }
   const auto code = static_cast<unsigned>(value);
   std::string text;
@@ -128,13 +128,12 @@ NcResult<std::shared_ptr<const klartext::MaskFile>> FormattedPrinter::mask(
   Known& known = masks_[path.key()];
   if (known.mask == nullptr || known.revision != revision) {
     const auto file = files_.find(path);
-    if (!file) return nc_error(fmt::format("mask {} does not exist", path.text()));
+    if (!file) return nc_error("mask {} does not exist", path.text());
     auto parsed = klartext::parse_mask(*file->bytes, file->path.text());
     const auto error = std::ranges::find(parsed.diagnostics, klartext::Severity::Error,
                                          &klartext::Diagnostic::severity);
     if (error != parsed.diagnostics.end()) {
-      return nc_error(
-          fmt::format("mask {} line {}: {}", path.text(), error->range.begin.line, error->message));
+      return nc_error("mask {} line {}: {}", path.text(), error->range.begin.line, error->message);
     }
     known = {file->revision, std::make_shared<const klartext::MaskFile>(std::move(parsed.mask))};
   }

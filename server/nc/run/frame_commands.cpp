@@ -19,7 +19,7 @@ template <class Change>
 NcResult<void> change_frames(Channel& channel, const Change& change) {
   Frames frames = channel.machine().state().frames;
   change(frames);
-  return checked(channel.machine().set_frames(frames));
+  return channel.machine().set_frames(frames);
 }
 
 /// TABLE ROT (decision 31): the table axis next to the workpiece is free if it is parallel to the
@@ -101,7 +101,7 @@ NcResult<void> turn(Channel& channel, const Vec3& rotary, const PlaneMoves& move
   const machine::Modes before = machine.state().modes;
   machine::Modes during = before;
   during.tcpm = moves.positioning == PlanePositioning::Move;
-  TRY(checked(machine.set_modes(during)));
+  TRY(machine.set_modes(during));
   const Vec3 shown =
       machine.state().frames.rotary_from_machine(rotary, machine::CoordinateSystem::Input);
   machine::AxisWords target;
@@ -114,14 +114,14 @@ NcResult<void> turn(Channel& channel, const Vec3& rotary, const PlaneMoves& move
     const Vec3 tip = machine.position().linear + swing * moves.distance;
     for (std::size_t axis = 0; axis < 3; ++axis) target.values[axis] = tip[axis];
   }
-  auto moved = checked(machine.move({target, moves.feed}));
-  TRY(checked(machine.set_modes(before)));
+  auto moved = machine.move({target, moves.feed});
+  TRY(machine.set_modes(before));
   return moved;
 }
 
 NcResult<void> apply(Channel& channel, const Frames& frames, const std::optional<Vec3>& rotary,
                      const PlaneMoves& moves) {
-  TRY(checked(channel.machine().set_frames(frames)));
+  TRY(channel.machine().set_frames(frames));
   if (!rotary) return {};
   set_plane_angles(channel, *rotary);
   const bool turns =
@@ -177,7 +177,7 @@ NcResult<void> rotate(Channel& channel, const Coordinate& angle) {
 NcResult<void> scale(Channel& channel, const machine::Scaling& scaling) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (scaling.factor[axis] <= 0) {
-      return nc_error(1011, fmt::format("scaling factor {}", scaling.factor[axis]));
+      return nc_error(1011, "scaling factor {}", scaling.factor[axis]);
     }
   }
   return change_frames(channel, [&](Frames& frames) { frames.set_scaling(scaling); });

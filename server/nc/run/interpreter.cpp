@@ -53,12 +53,13 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
   if (ending.error) {
     constexpr RunStatus kStatuses[] = {RunStatus::Failed, RunStatus::Stopped,
                                        RunStatus::LimitExceeded, RunStatus::Cancelled};
-    static_assert(std::size(kStatuses) == static_cast<std::size_t>(NcErrorKind::Cancelled) + 1);
-    result.status = kStatuses[static_cast<std::size_t>(ending.error->kind)];
+    static_assert(std::size(kStatuses) == static_cast<std::size_t>(FaultKind::Cancelled) + 1);
+    const FaultKind kind = ending_of(ending.error->kind);
+    result.status = kStatuses[static_cast<std::size_t>(kind)];
     std::vector<klartext::DiagnosticNote> origins;
-    if (ending.error->kind == NcErrorKind::Error) {
+    if (kind == FaultKind::Error) {
       origins = origins_of(channel.chain(), *ending.error);
-    } else if (ending.error->kind == NcErrorKind::Stop && ending.error->number != 0) {
+    } else if (kind == FaultKind::Stop && ending.error->number != 0) {
       origins = origins_of_values(channel.chain());
     }
     channel.log.finish(*ending.error, last, std::move(origins));

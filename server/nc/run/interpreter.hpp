@@ -14,6 +14,27 @@
 
 namespace fitgauge::interpreter {
 
+/// The replacement of an M function or cycle of the machine builder: a program, or nothing.
+struct BuilderAction {
+  std::optional<ControlPath> program;
+};
+
+/// M functions and cycles of the machine builder, as in the setup (decision 28). Functions of the
+/// control itself cannot be replaced.
+struct MachineBuilder {
+  std::map<int, BuilderAction> m_functions;
+  std::map<int, BuilderAction> cycles;
+
+  const BuilderAction* m_function(int number) const { return find(m_functions, number); }
+  const BuilderAction* cycle(int number) const { return find(cycles, number); }
+
+ private:
+  static const BuilderAction* find(const std::map<int, BuilderAction>& actions, int number) {
+    const auto it = actions.find(number);
+    return it == actions.end() ? nullptr : &it->second;
+  }
+};
+
 /// The action at STOP, M0, M1 and Q281 = 2: the run continues as after NC Start, or ends.
 enum class OnStop : std::uint8_t { Continue, End };
 

@@ -21,7 +21,7 @@ constexpr std::string_view kZero = "ZERO";
 ControlPath records_path() { return ControlPath::parse("TNC:\\table\\DATA450.KD").value(); }
 
 NcError broken(std::string_view what) {
-  return nc_error(1096, fmt::format("{}: {}", records_path().text(), what));
+  return nc_error(1096, "{}: {}", records_path().text(), what);
 }
 
 struct Record {

@@ -13,7 +13,7 @@ using machine::SpindleState;
 /// Sets the modes of the machine that the block changes.
 NcResult<void> set_modes(Channel& channel, const machine::Modes& modes) {
   if (modes == channel.machine().state().modes) return {};
-  TRY(checked(channel.machine().set_modes(modes)));
+  TRY(channel.machine().set_modes(modes));
   update_preassigned(channel);
   return {};
 }
@@ -49,9 +49,9 @@ NcResult<void> retract(Channel& channel, const MCall& call) {
   const machine::Vec3 direction = state.tool_direction(machine::CoordinateSystem::Reference);
   const double length = call.to_limit ? room(state, direction) : call.length.value_or(0);
   const machine::Vec3 target = state.nose.linear + direction * length;
-  return checked(channel.machine().move({machine::AxisWords::linear(target),
-                                         call.feed.value_or(machine::Feed::rapid()),
-                                         machine::CoordinateSystem::Reference}));
+  return channel.machine().move({machine::AxisWords::linear(target),
+                                 call.feed.value_or(machine::Feed::rapid()),
+                                 machine::CoordinateSystem::Reference});
 }
 
 NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& calls) {
@@ -75,8 +75,7 @@ NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& cal
       case 145: modes.kinematics_in_display = false; break;
       case 143:
         TRY(channel.contour.finish(channel.machine()));
-        if (auto done = probing::reset_basic_rotation(channel.machine()); !done)
-          return from_cycle(done.error());
+        TRY(probing::reset_basic_rotation(channel.machine()));
         break;
       default: break;
     }
@@ -126,8 +125,8 @@ NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words) {
   for (const MCall& call : words.m) {
     if (call.program == nullptr) continue;
     if (ends || calls_cycle) {
-      return nc_error(fmt::format(
-          "M{} calls a program: write M2, M30, M89 and M99 into another block", call.number));
+      return nc_error("M{} calls a program: write M2, M30, M89 and M99 into another block",
+                      call.number);
     }
     return call_program(channel, *call.program);
   }

@@ -38,9 +38,9 @@ NcResult<void> note_corner(Channel& channel, const MachiningDefinition& definiti
   if (definition.cycle->shape != MachiningShape::RectangularStud) return {};
   const double most = std::min(definition.value(218), definition.value(219)) / 2;
   if (definition.value(220) <= most) return {};
-  return channel.note(fmt::format(
+  return channel.note(
       "the corner radius Q220 = {} is larger than half of the shorter side: {} mm is milled",
-      definition.value(220), most));
+      definition.value(220), most);
 }
 
 /// Tapping and 241 start the spindle themselves.
@@ -48,15 +48,15 @@ NcResult<void> note_standing(Channel& channel, const MachiningCycle& cycle) {
   const int number = cycle.descriptor.number;
   const bool starts = cycle.shape == MachiningShape::Tapping || number == 241;
   if (starts || channel.machine().state().modes.turns()) return {};
-  return channel.note(fmt::format(
-      "cycle {} cuts with a standing spindle: give its speed S, and M3 or M4 before", number));
+  return channel.note(
+      "cycle {} cuts with a standing spindle: give its speed S, and M3 or M4 before", number);
 }
 
 NcResult<void> note_probe(Channel& channel, const MachiningCycle& cycle) {
   const machine::MachineState& state = channel.machine().state();
   if (!state.probe_system()) return {};
-  return channel.note(fmt::format("cycle {} machines with the touch probe, tool {}: call a cutter",
-                                  cycle.descriptor.number, state.tool.number));
+  return channel.note("cycle {} machines with the touch probe, tool {}: call a cutter",
+                      cycle.descriptor.number, state.tool.number);
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ NcResult<void> ToolMotion::to_height(double height, const machine::Feed& feed) {
   if (std::abs(height - this->height()) < tolerance::kSamePoint) return {};
   machine::AxisWords target;
   target[plane_.normal] = height;
-  return checked(machine_.move({target, feed}));
+  return machine_.move({target, feed});
 }
 
 NcResult<void> ToolMotion::to_point(Vec2 point, const machine::Feed& feed) {
@@ -80,7 +80,7 @@ NcResult<void> ToolMotion::to_point(Vec2 point, const machine::Feed& feed) {
   machine::AxisWords target;
   target.values[plane_.first] = point.x;
   target.values[plane_.second] = point.y;
-  return checked(machine_.move({target, feed}));
+  return machine_.move({target, feed});
 }
 
 NcResult<void> ToolMotion::arc(Vec2 centre, Vec2 end, double sweep_deg, double height,
@@ -89,17 +89,16 @@ NcResult<void> ToolMotion::arc(Vec2 centre, Vec2 end, double sweep_deg, double h
   TRY(check_scaling(state(), plane_, "an arc is"));
   machine::Vec3 target = plane_.with(machine_.position().linear, end);
   target[machine::index(plane_.normal)] = height;
-  return checked(
-      machine_.move_arc({target, plane_.with(target, centre), sweep_deg, plane_.normal, feed}));
+  return machine_.move_arc({target, plane_.with(target, centre), sweep_deg, plane_.normal, feed});
 }
 
 NcResult<void> ToolMotion::dwell(double seconds) {
   TRY(budget_.check());
-  return seconds > 0 ? checked(machine_.dwell(seconds)) : NcResult<void>();
+  return seconds > 0 ? machine_.dwell(seconds) : NcResult<void>();
 }
 
 NcResult<void> ToolMotion::set_modes(const machine::Modes& modes) {
-  return modes == state().modes ? NcResult<void>() : checked(machine_.set_modes(modes));
+  return modes == state().modes ? NcResult<void>() : machine_.set_modes(modes);
 }
 
 Vec2 ToolMotion::point() const { return plane_.project(machine_.position().linear); }

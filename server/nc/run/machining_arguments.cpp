@@ -35,8 +35,8 @@ NcResult<double> predefined_value(const Channel& channel, int parameter) {
   if (found != channel.predefined.end()) return found->second;
   // Not null: the linker has refused parameters that no GLOBAL DEF has.
   const probing::CycleDescriptor& definition = *global_definition_of(parameter);
-  return nc_error(1017, fmt::format("Q{} is PREDEF, but GLOBAL DEF {} {} is missing before it",
-                                    parameter, definition.number, definition.name));
+  return nc_error(1017, "Q{} is PREDEF, but GLOBAL DEF {} {} is missing before it", parameter,
+                  definition.number, definition.name);
 }
 
 /// A word of an old cycle in the current cycle. `scale`: 2 makes a diameter of a radius.
@@ -157,7 +157,7 @@ class DottedReader {
       const auto* parameter = find(kOrder[values_++], part);
       if (parameter != nullptr) return set(*parameter, word);
     }
-    return nc_error(fmt::format("sub-line {} of the cycle has a number too many", part));
+    return nc_error("sub-line {} of the cycle has a number too many", part);
   }
 
   Channel& channel_;
@@ -212,7 +212,7 @@ NcResult<MachiningDefinition> machining_arguments(Channel& channel, const klarte
       definition.given.insert(static_cast<int>(parameter.id));
     arguments.set(parameter.id, std::move(value));
   }
-  if (auto completed = arguments.complete(); !completed) return from_cycle(completed.error());
+  TRY(arguments.complete());
   for (const probing::CycleParameter& parameter : descriptor.parameters) {
     if (arguments.has_number(parameter.id)) {
       definition.values[static_cast<int>(parameter.id)] = arguments.number(parameter.id);

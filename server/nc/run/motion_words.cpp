@@ -53,8 +53,7 @@ NcResult<void> read_coordinate(Channel& channel, const Word& word, double unit,
   if (is_absent(word.value)) return {};
   const auto value = TRY(coordinate(channel, word.value));
   if (!value) {
-    return channel.note(
-        fmt::format("{} is left out: its parameter is undefined", spelling(word.letter)));
+    return channel.note("{} is left out: its parameter is undefined", spelling(word.letter));
   }
   target = Coordinate{*value * unit, word.incremental};
   return {};
@@ -71,13 +70,13 @@ NcResult<void> read_m(Channel& channel, const Word& word, std::vector<MCall>& ca
   const auto value = TRY(whole(channel, word.value));
   const int called = value;
   if (const MFunction* known = m_function(called)) {
-    if (known->role == MRole::Refuses) return unknown_m_function(called);
-    if (known->role == MRole::Notes) TRY(channel.note(fmt::format("M{}: {}", called, known->text)));
+    if (known->role == MRole::Refuses) return nc_error(m_function_hint(called));
+    if (known->role == MRole::Notes) TRY(channel.note("M{}: {}", called, known->text));
     calls.push_back({.number = called});
     return {};
   }
   const BuilderAction* action = channel.options.builder.m_function(called);
-  if (action == nullptr) return unknown_m_function(called);
+  if (action == nullptr) return nc_error(m_function_hint(called));
   if (action->program) calls.push_back({.number = called, .program = &*action->program});
   return {};
 }
@@ -136,8 +135,8 @@ bool MotionWords::has_m(int number) const {
 NcResult<machine::Axis> machine_axis(Letter letter) {
   if (letter <= Letter::C) return static_cast<machine::Axis>(letter);
   constexpr std::string_view kNames = "XYZABCUVW";
-  return from_machine(machine::make_fault(machine::FaultKind::AxisMissing,
-                                          kNames.substr(static_cast<std::size_t>(letter), 1)));
+  return machine::make_fault(machine::FaultKind::AxisMissing,
+                             kNames.substr(static_cast<std::size_t>(letter), 1));
 }
 
 NcResult<MotionWords> read_words(Channel& channel, klartext::Slice<Word> words) {
@@ -163,7 +162,7 @@ NcResult<machine::Feed> use_feed(Channel& channel, const std::optional<machine::
   if (!written) return machine::Feed::at(modes.feed_mm_min);
   if (!written->is_rapid && written->rate != modes.feed_mm_min) {
     modes.feed_mm_min = written->rate;
-    TRY(checked(channel.machine().set_modes(modes)));
+    TRY(channel.machine().set_modes(modes));
   }
   return *written;
 }

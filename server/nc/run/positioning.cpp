@@ -172,9 +172,9 @@ class Positioning {
       if (!pole.plane.contains(axis)) {
         return nc_error(
             1019,
-            fmt::format(
-                "the {} axis is not in the plane of the circle: write both axes of the plane in CC",
-                "XYZ"[axis]));
+
+            "the {} axis is not in the plane of the circle: write both axes of the plane in CC",
+            "XYZ"[axis]);
       }
       point[axis] = words_.axes[axis]->after(position_.linear[axis]);
     }
@@ -281,8 +281,8 @@ class Positioning {
     if (!words_.r) return nc_error("CR needs a radius R");
     const auto arc = arc_of_radius(start_, end, *words_.r, left_turn());
     if (!arc) {
-      return nc_error(fmt::format("CR: no arc of radius {} mm joins two points {:.4f} mm apart",
-                                  *words_.r, norm(end - start_)));
+      return nc_error("CR: no arc of radius {} mm joins two points {:.4f} mm apart", *words_.r,
+                      norm(end - start_));
     }
     return *arc;
   }
@@ -308,19 +308,19 @@ class Positioning {
     if (radius < tolerance::kSamePoint) return nc_error("the arc must not begin in its centre");
     const double error = norm(end - centre) - radius;
     if (std::abs(error) > tolerance::kBesideCircle) {
-      return nc_error(fmt::format(
+      return nc_error(
           "the end of the arc is {:.4f} mm {} its circle in the plane {}{}: CC gives the "
           "centre, and its two axes give the plane",
           std::abs(error), error > 0 ? "outside" : "inside", "XYZ"[plane_.first],
-          "XYZ"[plane_.second]));
+          "XYZ"[plane_.second]);
     }
     if (motion_.path != Path::Cp || !words_.pa || !words_.pa->incremental)
       return Curve{start_, end, centre, sweep(start_, end, centre, left_turn())};
     // A sweep of 0 turns neither way.
     const double turn = words_.pa->value;
     if (turn != 0 && (turn > 0) != left_turn()) {
-      return nc_error(1012, fmt::format("IPA = {} turns {}: DR must have the same sign", turn,
-                                        turn > 0 ? "counter-clockwise" : "clockwise"));
+      return nc_error(1012, "IPA = {} turns {}: DR must have the same sign", turn,
+                      turn > 0 ? "counter-clockwise" : "clockwise");
     }
     return Curve{start_, end, centre, turn};
   }

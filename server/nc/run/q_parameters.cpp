@@ -17,7 +17,7 @@ std::optional<double> QParameters::number(QRef parameter) const {
 
 NcResult<void> QParameters::set(QRef parameter, double value) {
   if (!std::isfinite(value)) {
-    return nc_error(fmt::format("the value for {} is not a finite number", name(parameter)));
+    return nc_error("the value for {} is not a finite number", name(parameter));
   }
   cells_[cell_of(parameter)] = value;
   return {};
@@ -32,8 +32,8 @@ const std::string* QParameters::string(std::uint16_t number) const {
 NcResult<void> QParameters::set_string(std::uint16_t number, std::string value) {
   const std::size_t size = tabfile::count_characters(value);
   if (size > kLongestString) {
-    return nc_error(fmt::format("QS{} cannot take {} characters; a string parameter holds {}",
-                                number, size, kLongestString));
+    return nc_error("QS{} cannot take {} characters; a string parameter holds {}", number, size,
+                    kLongestString);
   }
   strings_[number] = std::move(value);
   return {};
@@ -93,8 +93,8 @@ std::vector<ParameterValue> QParameters::all() const {
 }
 
 NcError undefined_error(QRef parameter) {
-  return nc_error(fmt::format("parameter {} is undefined; assign it before this block reads it",
-                              name(parameter)));
+  return nc_error("parameter {} is undefined; assign it before this block reads it",
+                  name(parameter));
 }
 
 }  // namespace fitgauge::interpreter

@@ -7,7 +7,7 @@ NcResult<std::int64_t> RunBudget::refuel(std::int64_t left, std::int64_t needed)
   TRY(check());
   const auto remaining = static_cast<std::int64_t>(limits_.blocks - granted_);
   if (needed > remaining) {
-    return limit_error(fmt::format("the run has executed its limit of {} blocks", limits_.blocks));
+    return limit_error("the run has executed its limit of {} blocks", limits_.blocks);
   }
   const std::int64_t portion = std::min(remaining, std::max(needed, kPortion));
   granted_ += static_cast<std::uint64_t>(portion);
@@ -17,13 +17,12 @@ NcResult<std::int64_t> RunBudget::refuel(std::int64_t left, std::int64_t needed)
 std::optional<NcError> RunBudget::refusal() const {
   switch (allowance_.found()) {
     case Allowance::Spent::Nothing: break;
-    case Allowance::Spent::Stop: return NcError{NcErrorKind::Cancelled, 0, "the run was cancelled"};
+    case Allowance::Spent::Stop: return NcError{FaultKind::Cancelled, 0, "the run was cancelled"};
     case Allowance::Spent::Time:
-      return limit_error(
-          fmt::format("the run has taken its limit of {} seconds", limits_.time.count()));
+      return limit_error("the run has taken its limit of {} seconds", limits_.time.count());
     case Allowance::Spent::Memory:
-      return limit_error(
-          fmt::format("the run has taken more than its {} bytes of memory", limits_.memory_bytes));
+      return limit_error("the run has taken more than its {} bytes of memory",
+                         limits_.memory_bytes);
   }
   return std::nullopt;
 }

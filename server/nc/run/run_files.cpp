@@ -26,7 +26,7 @@ NcResult<void> RunFiles::reserve(const ControlPath& path) {
   const std::string key = path.key();
   if (reserved_.contains(key)) return {};
   if (reserved_.size() >= most_files_) {
-    return limit_error(fmt::format("the run has written more than {} files", most_files_));
+    return limit_error("the run has written more than {} files", most_files_);
   }
   reserved_.insert(key);
   return {};

@@ -60,7 +60,7 @@ std::uint32_t Place::line() const { return program->program().range(source().wri
 
 NcResult<void> OutputBudget::charge(std::size_t bytes) {
   if (bytes > left_) {
-    return limit_error(fmt::format("the run has written more than {} bytes", total_));
+    return limit_error("the run has written more than {} bytes", total_);
   }
   left_ -= bytes;
   return {};
@@ -87,9 +87,8 @@ NcResult<void> RunLog::note(std::string text, const Place& place) {
 
 void RunLog::finish(const NcError& error, const Place& place,
                     std::vector<klartext::DiagnosticNote> origins) {
-  static_assert(static_cast<int>(MessageKind::Cancelled) ==
-                static_cast<int>(NcErrorKind::Cancelled));
-  add(static_cast<MessageKind>(error.kind), error.number, error.text, place);
+  static_assert(static_cast<int>(MessageKind::Cancelled) == static_cast<int>(FaultKind::Cancelled));
+  add(static_cast<MessageKind>(ending_of(error.kind)), error.number, error.text, place);
   messages_.back().origins = std::move(origins);
 }
 

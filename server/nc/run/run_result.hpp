@@ -14,7 +14,7 @@ enum class RunStatus : std::uint8_t { Completed, Stopped, Failed, LimitExceeded,
 /// `completed`, `stopped`, `failed`, `limit_exceeded`, `cancelled`.
 std::string_view word(RunStatus status);
 
-/// The first in the order of NcErrorKind.
+/// The first in the order of machine::FaultKind.
 enum class MessageKind : std::uint8_t {
   Error,      ///< of the NC program or the machine; the run failed
   Stop,       ///< STOP, M0, a log on the screen, the Q309 reaction of a cycle

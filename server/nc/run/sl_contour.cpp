@@ -104,7 +104,7 @@ NcResult<SlDrawing> draw(Channel& channel, const klartext::Label& label) {
   SlDrawing drawing = *channel.contour.drawing();
   channel.contour = path;
   if (!are_the_same(channel.machine().state().frames, frames))
-    TRY(checked(channel.machine().set_frames(frames)));
+    TRY(channel.machine().set_frames(frames));
   return drawing;
 }
 
@@ -124,8 +124,7 @@ NcResult<SlContour> read_contour(Channel& channel, const klartext::Label& label)
   }
   const double enclosed = area(curves);
   if (std::abs(enclosed) < tolerance::kSamePoint) {
-    return nc_error(
-        1024, fmt::format("contour label {} encloses nothing", std::get<std::uint32_t>(label)));
+    return nc_error(1024, "contour label {} encloses nothing", std::get<std::uint32_t>(label));
   }
   contour.is_pocket = drawing.side() * enclosed >= 0;
   return contour;

@@ -23,10 +23,9 @@ NcResult<Next> dispatch(Channel& channel, const Instruction& instruction,
   } else if constexpr (std::is_same_v<Statement, klartext::CyclePart>) {
     return execute_parts(channel, instruction.b, instruction.a);
   } else if constexpr (std::is_same_v<Statement, klartext::ErrorBlock>) {
-    return nc_error(fmt::format("block is faulty: {}", text(statement.text)));
+    return nc_error("block is faulty: {}", text(statement.text));
   } else if constexpr (std::is_same_v<Statement, klartext::Unsupported>) {
-    return nc_error(
-        fmt::format("{} is not available: {}", text(statement.feature), text(statement.text)));
+    return nc_error("{} is not available: {}", text(statement.feature), text(statement.text));
   } else if constexpr (requires { execute(channel, statement); }) {
     return wrap(execute(channel, statement));
   } else {
@@ -65,7 +64,7 @@ NcResult<Next> execute_statement(Channel& channel, const Instruction& instructio
   auto next =
       std::visit([&](const auto& kind) { return dispatch(channel, instruction, kind); }, statement);
   if (next && channel.stop_after_block) {
-    return NcError{NcErrorKind::Stop, 0, "measuring log shown on the screen"};
+    return NcError{FaultKind::Stop, 0, "measuring log shown on the screen"};
   }
   return next;
 }

@@ -20,8 +20,7 @@ constexpr int kMostDecimals = 15;
 /// negative.
 NcResult<std::size_t> count(Channel& channel, const Expr& expr) {
   const auto value = TRY(number(channel, expr));
-  if (value < 0 || value > 1e9)
-    return nc_error(1011, fmt::format("{} is not a position in a text", value));
+  if (value < 0 || value > 1e9) return nc_error(1011, "{} is not a position in a text", value);
   return static_cast<std::size_t>(value);
 }
 
@@ -51,7 +50,7 @@ NcResult<std::string> sub_string(Channel& channel, Operands operands) {
   if (!is_absent(operands[2])) length = TRY(count(channel, operands[2]));
   const std::size_t size = tabfile::count_characters(source);
   if (begin > size) {
-    return nc_error(1011, fmt::format("SUBSTR begins at character {} of {}", begin, size));
+    return nc_error(1011, "SUBSTR begins at character {} of {}", begin, size);
   }
   const std::size_t first = tabfile::skip_characters(source, 0, begin);
   const std::size_t last = tabfile::skip_characters(source, first, length);
@@ -73,7 +72,7 @@ NcResult<std::string> system_string(Channel& channel, Operands operands) {
   if (id == 10321) {
     if (auto time = format_system_time(channel.now(), nr)) return *std::move(time);
   }
-  return nc_error(fmt::format("SYSSTR( ID{} NR{} ) is not available", id, nr));
+  return nc_error("SYSSTR( ID{} NR{} ) is not available", id, nr);
 }
 
 NcResult<double> to_number(std::string source) {
@@ -84,7 +83,7 @@ NcResult<double> to_number(std::string source) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value,
                                             std::chars_format::fixed);
   if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value)) {
-    return nc_error(fmt::format("TONUMB: '{}' is not a number", source));
+    return nc_error("TONUMB: '{}' is not a number", source);
   }
   return value;
 }

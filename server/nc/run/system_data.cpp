@@ -70,9 +70,7 @@ const machine::Tool* find_tool(const MachineState& state, int number) {
   return tool == nullptr && number == 0 ? &kNoTool : tool;
 }
 
-NcError no_tool(int number) {
-  return nc_error(1092, fmt::format("tool {} is not in the tool table", number));
-}
+NcError no_tool(int number) { return nc_error(1092, "tool {} is not in the tool table", number); }
 
 Answer tool_data(const MachineState& state, const Address& address) {
   const machine::Tool* tool = find_tool(state, address.index.value_or(state.tool.number));
@@ -241,12 +239,11 @@ NcResult<void> write_tool(Channel& channel, const Address& address, double value
     case ToolWrite::Done: break;
     case ToolWrite::Unknown: return unknown(address);
     case ToolWrite::OutOfRange:
-      return nc_error(
-          fmt::format("ID50 NR{} of tool {}: the column takes a whole number, and not {}",
-                      address.nr, number, value));
+      return nc_error("ID50 NR{} of tool {}: the column takes a whole number, and not {}",
+                      address.nr, number, value);
   }
   TRY(note_lathe_value(channel, tool, address.nr));
-  return checked(channel.machine().write_tool(tool));
+  return channel.machine().write_tool(tool);
 }
 
 NcResult<void> write_preset(Channel& channel, const Address& address, double value) {
@@ -261,7 +258,7 @@ NcResult<void> write_preset(Channel& channel, const Address& address, double val
   } else {
     preset.frame.origin[i] = value;
   }
-  return checked(channel.machine().write_preset(preset));
+  return channel.machine().write_preset(preset);
 }
 
 }  // namespace

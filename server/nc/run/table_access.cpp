@@ -26,10 +26,10 @@ NcResult<std::vector<ColumnTarget>> targets(std::string_view columns, QRef first
     const std::size_t end = columns.find(',');
     const std::size_t place = first.number + targets.size();
     if (targets.size() == kMostColumns) {
-      return nc_error(fmt::format("more than {} columns are named", kMostColumns));
+      return nc_error("more than {} columns are named", kMostColumns);
     }
     if (place >= parameter_count(first.space)) {
-      return nc_error(fmt::format("there are not enough parameters after {}", name(first)));
+      return nc_error("there are not enough parameters after {}", name(first));
     }
     targets.push_back(
         {trim(columns.substr(0, end)), {first.space, static_cast<std::uint16_t>(place)}});
@@ -57,7 +57,7 @@ constexpr std::array<std::string_view, machine::kAxes> kAxisColumns{"X", "Y", "Z
 
 NcResult<TableAccess::Table> TableAccess::load(const ControlPath& path, std::string_view what) {
   auto file = files_.find(path);
-  if (!file) return nc_error(fmt::format("{} {} does not exist", what, path.text()));
+  if (!file) return nc_error("{} {} does not exist", what, path.text());
   if (std::none_of(opened_.begin(), opened_.end(),
                    [&](const OpenedTable& table) { return table.path == path; })) {
     opened_.push_back({file->path, file->source});
@@ -68,8 +68,7 @@ NcResult<TableAccess::Table> TableAccess::load(const ControlPath& path, std::str
     if (known.content == nullptr) {
       auto read = tabfile::read_tab_file(*file->bytes, allowance_);
       if (read.has_error()) {
-        return nc_error(
-            fmt::format("{} {} cannot be read: {}", what, path.text(), read.error().message));
+        return nc_error("{} {} cannot be read: {}", what, path.text(), read.error().message);
       }
       known.content = std::make_shared<const TabTable>(*std::move(read));
     }
@@ -104,7 +103,7 @@ NcResult<void> TableAccess::read(QRef first, std::int64_t row, std::string_view 
   const auto named = TRY(targets(columns, first));
   const TabTable& table = *open_->content;
   const auto failed = [&](const Error& error) {
-    return nc_error(fmt::format("table {}: {}", open_->path.text(), error.message));
+    return nc_error("table {}: {}", open_->path.text(), error.message);
   };
   for (const auto& [column, parameter] : named) {
     if (parameter.is_string()) {
@@ -134,7 +133,7 @@ NcResult<void> TableAccess::write(QRef first, std::int64_t row, std::string_view
                          : table.set_number(row, column,
                                             *parameters_.number(parameter) /
                                                 unit_of(table, column, length_unit));
-    if (!set) return nc_error(fmt::format("table {}: {}", open_->path.text(), set.error().message));
+    if (!set) return nc_error("table {}: {}", open_->path.text(), set.error().message);
     if (const std::int64_t nr = tool_column(column); nr != 0 && is_tool_table) {
       const double unit =
           is_tool_length(nr) && table.header().unit == "INCH" ? kMillimetresPerInch : 1;
@@ -155,7 +154,7 @@ NcResult<machine::AxisWords> TableAccess::datum(std::int64_t row) const {
   if (!datum_) return nc_error(1043, "write SEL TABLE before this block");
   const auto found = datum_->content->find_row(row);
   if (!found) {
-    return nc_error(fmt::format("datum table {}: {}", datum_->path.text(), found.error().message));
+    return nc_error("datum table {}: {}", datum_->path.text(), found.error().message);
   }
   machine::AxisWords values;
   for (const machine::Axis axis : machine::kAllAxes) {
@@ -172,7 +171,7 @@ NcResult<void> TableAccess::write_datum(std::int64_t row, const machine::AxisWor
     const auto set =
         editable(*datum_).set_number(row, kAxisColumns[machine::index(axis)], *values[axis]);
     if (!set) {
-      return nc_error(fmt::format("datum table {}: {}", datum_->path.text(), set.error().message));
+      return nc_error("datum table {}: {}", datum_->path.text(), set.error().message);
     }
   }
   return save(datum_);

@@ -34,10 +34,9 @@ NcResult<void> stand_along(Channel& channel, const Vec3& direction, MotionWords&
   const Vec3 normal = machine::unit(on_table.direction_to_machine(direction));
   const auto rotary = rotary_along(state, normal, from);
   if (!rotary) {
-    return nc_error(
-        1013,
-        fmt::format("no position of the rotary axes points the tool along {:.4f} {:.4f} {:.4f}",
-                    direction.x, direction.y, direction.z));
+    return nc_error(1013,
+                    "no position of the rotary axes points the tool along {:.4f} {:.4f} {:.4f}",
+                    direction.x, direction.y, direction.z);
   }
   const Vec3 shown = state.frames.rotary_from_machine(*rotary, CoordinateSystem::Input);
   for (std::size_t letter = 0; letter < 3; ++letter) words.axes[letter + 3].reset();
@@ -60,9 +59,9 @@ NcResult<void> turn_by_angles(Channel& channel, SpatialAngles& angles, MotionWor
   for (std::size_t letter = 0; letter < 3; ++letter) {
     if (!angles[letter]) {
       return nc_error(
-          fmt::format("AXIS SPAT: the first block that turns the tool gives A, B and C; "
-                      "{} is missing",
-                      "ABC"[letter]));
+          "AXIS SPAT: the first block that turns the tool gives A, B and C; "
+          "{} is missing",
+          "ABC"[letter]);
     }
     spatial[letter] = *angles[letter];
   }

@@ -107,9 +107,9 @@ NcResult<void> note_lathe_value(Channel& channel, const Tool& tool, std::int64_t
       known != nullptr && (known->value == &Tool::l || known->value == &Tool::r ||
                            known->value == &Tool::dl || known->value == &Tool::dr);
   if (!tool.lathe || !is_length) return {};
-  return channel.note(fmt::format(
+  return channel.note(
       "tool {} is a lathe tool: {} has no effect, since ZL, XL, DZL and DXL are its lengths",
-      tool.number, known->name));
+      tool.number, known->name);
 }
 
 bool is_tool_length(std::int64_t nr) {

@@ -25,30 +25,27 @@ NcResult<double> value(Channel& channel, Words words, Letter letter, double othe
 
 NcResult<void> datum_shift(Channel& channel, Words words) {
   if (const Word* row = find(words, Letter::Row)) {
-    const auto value = whole(channel, row->value);
-    return value ? shift_datum_to_row(channel, *value) : value.error();
+    return shift_datum_to_row(channel, TRY(whole(channel, row->value)));
   }
-  const auto axes = read_axis_words(channel, words);
-  return axes ? shift_datum(channel, *axes) : axes.error();
+  return shift_datum(channel, TRY(read_axis_words(channel, words)));
 }
 
 /// Tolerance of the path, which a simulated path does not have.
 NcResult<void> tolerance(Channel& channel, Words words) {
   const auto width = TRY(value(channel, words, Letter::T, 0));
-  if (width < 0) return nc_error(1004, fmt::format("T of cycle 32 is {}", width));
+  if (width < 0) return nc_error(1004, "T of cycle 32 is {}", width);
   return {};
 }
 
 /// The spindle turns to the angle, which nothing here depends on.
 NcResult<void> orientation(Channel& channel, Words words) {
   const auto angle = TRY(value(channel, words, Letter::Value, 0));
-  if (std::abs(angle) > 360) return nc_error(1013, fmt::format("cycle 13: {} degrees", angle));
+  if (std::abs(angle) > 360) return nc_error(1013, "cycle 13: {} degrees", angle);
   return {};
 }
 
 NcResult<void> dwell(Channel& channel, Words words) {
-  const auto seconds = value(channel, words, Letter::Value, 0);
-  return seconds ? checked(channel.machine().dwell(*seconds)) : seconds.error();
+  return channel.machine().dwell(TRY(value(channel, words, Letter::Value, 0)));
 }
 
 NcResult<void> rotation(Channel& channel, Words words) {
@@ -58,8 +55,8 @@ NcResult<void> rotation(Channel& channel, Words words) {
 }
 
 NcResult<void> scaling(Channel& channel, Words words) {
-  const auto factor = value(channel, words, Letter::Scl, 1);
-  return factor ? scale(channel, {{*factor, *factor, *factor}, {}}) : factor.error();
+  const auto factor = TRY(value(channel, words, Letter::Scl, 1));
+  return scale(channel, {{factor, factor, factor}, {}});
 }
 
 NcResult<void> axis_scaling(Channel& channel, Words words) {
@@ -106,8 +103,7 @@ NcResult<std::array<bool, 3>> mirrored_axes(std::span<const Word> words) {
   std::array<bool, 3> axes{};
   for (const Word& word : words) {
     if (word.letter > Letter::Z) {
-      return nc_error(fmt::format("only X, Y and Z are mirrored here, not {}",
-                                  klartext::spelling(word.letter)));
+      return nc_error("only X, Y and Z are mirrored here, not {}", klartext::spelling(word.letter));
     }
     axes[static_cast<std::size_t>(word.letter)] = true;
   }

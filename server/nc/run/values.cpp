@@ -65,10 +65,9 @@ NcResult<std::optional<double>> coordinate(Channel& channel, const Expr& expr) {
 
 NcResult<int> whole_in(Channel& channel, const Expr& expr, int least, int most) {
   const auto value = TRY(number(channel, expr));
-  if (value != std::nearbyint(value))
-    return nc_error(1011, fmt::format("{} is not a whole number", value));
+  if (value != std::nearbyint(value)) return nc_error(1011, "{} is not a whole number", value);
   if (value < least || value > most)
-    return nc_error(1011, fmt::format("{} is outside of {} to {}", value, least, most));
+    return nc_error(1011, "{} is outside of {} to {}", value, least, most);
   return static_cast<int>(value);
 }
 

@@ -38,7 +38,7 @@ CycleResult<void> replace_active_preset(machine::Machine& machine,
                                         const machine::PresetFrame& preset) {
   Frames frames = machine.state().frames;
   frames.set_preset(preset);
-  return lift(machine.set_frames(frames));
+  return machine.set_frames(frames);
 }
 
 CycleResult<void> reset_basic_rotation(machine::Machine& machine) {
@@ -76,7 +76,7 @@ CycleResult<void> set_basic_rotation(const CycleContext& context, const Vec3& ro
   if (row != 0) {
     machine::Preset preset = state.preset_row(row < 0 ? state.active_preset : row);
     preset.frame.basic_rotation_deg = rotation_deg;
-    TRY(lift(context.machine.write_preset(preset)));
+    TRY(context.machine.write_preset(preset));
   }
   if (row > 0) return {};
   machine::PresetFrame active = state.frames.preset();
@@ -89,7 +89,7 @@ using machine::Axis;
 CycleResult<double> table_angle(const machine::MachineState& state, Axis rotary, double angle_deg) {
   using machine::FaultKind;
   const machine::RotaryAxis* axis = state.kinematics.find(rotary);
-  if (axis == nullptr) return from_machine(make_fault(FaultKind::AxisMissing, name(rotary)));
+  if (axis == nullptr) return make_fault(FaultKind::AxisMissing, name(rotary));
   if (axis->mount == machine::AxisMount::Head) {
     return nc_error(1100, "the rotary axis does not turn the workpiece");
   }
@@ -101,7 +101,7 @@ CycleResult<void> align_rotary_axis(const CycleContext& context, Axis rotary, do
   const auto turn = TRY(table_angle(context.state(), rotary, angle_deg));
   machine::AxisWords target;
   target[rotary] = to_angle(context.machine.position()[rotary] + turn);
-  return lift(context.machine.move({target, machine::Feed::rapid()}));
+  return context.machine.move({target, machine::Feed::rapid()});
 }
 
 CycleResult<void> zero_rotary_axis(const CycleContext& context, Axis rotary, int row) {
@@ -114,7 +114,7 @@ CycleResult<void> zero_rotary_axis(const CycleContext& context, Axis rotary, int
   }
   machine::Preset preset = state.preset_row(row);
   preset.frame.rotary_offsets_deg[offset] = state.nose[rotary];
-  return lift(context.machine.write_preset(preset));
+  return context.machine.write_preset(preset);
 }
 
 }  // namespace fitgauge::probing

@@ -173,8 +173,8 @@ class ProbeCalibrator {
       tool.l = length - state.tool.dl;
       tool.dl = 0;
     }
-    TRY(lift(machine.write_probe(row)));
-    TRY(lift(machine.write_tool(tool)));
+    TRY(machine.write_probe(row));
+    TRY(machine.write_tool(tool));
     return log_calibration(context_, before, *state.probe_system(), to_length(found.residual));
   }
 
@@ -196,7 +196,7 @@ class ProbeCalibrator {
     const auto orient = [this](double degrees) {
       machine::Modes modes = context_.state().modes;
       modes.spindle_deg = degrees;
-      return lift(context_.machine.set_modes(modes));
+      return context_.machine.set_modes(modes);
     };
     const double before = context_.state().modes.spindle_deg;
     TRY(orient(spindle_deg));

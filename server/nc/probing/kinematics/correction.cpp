@@ -51,8 +51,8 @@ CycleResult<void> set_preset(const CycleContext& context, KinematicsProbing& pro
   Preset row = state.preset_row(state.active_preset);
   row.frame.origin = {to_length(centre.x).to_mm(), to_length(centre.y).to_mm(),
                       to_length(centre.z).to_mm()};
-  TRY(lift(context.machine.write_preset(row)));
-  return lift(context.machine.activate_preset(row.number));
+  TRY(context.machine.write_preset(row));
+  return context.machine.activate_preset(row.number);
 }
 
 }  // namespace
@@ -80,15 +80,15 @@ CycleResult<void> correct_kinematics(const CycleContext& context,
                     largest, *options.max_modification)));
     if (!confirmed) return {};
   }
-  return lift(context.machine.set_kinematics(corrected));
+  return context.machine.set_kinematics(corrected);
 }
 
 CycleResult<void> PresetAtSphere::check(const CycleContext& context) const {
   const MachineState& state = context.state();
   const Preset* row = state.presets.find(state.active_preset);
   if ((!sets_before_ && !sets_after_) || row == nullptr || !row->locked) return {};
-  return from_machine(make_fault(machine::FaultKind::PresetLocked,
-                                 fmt::format("the active preset {}", row->number)));
+  return make_fault(machine::FaultKind::PresetLocked,
+                    fmt::format("the active preset {}", row->number));
 }
 
 CycleResult<void> PresetAtSphere::before(const CycleContext& context,

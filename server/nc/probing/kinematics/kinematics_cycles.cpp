@@ -214,7 +214,7 @@ CycleResult<void> compensate(const CycleContext& context) {
 
   const Vec3 shift = place_of_sphere(measurement, probing.tool()) - preset;
   const Kinematics model = compensated(measurement.corrected, shift);
-  TRY(lift(context.machine.set_kinematics(model)));
+  TRY(context.machine.set_kinematics(model));
   write_kinematics_results(context.host, measurement, shift);
   const KinematicsReport report{.mode = "preset compensation",
                                 .measurement = measurement,

@@ -18,13 +18,13 @@ Feed feed_of(double rate) { return std::isinf(rate) ? Feed::rapid() : Feed::at(r
 CycleResult<void> set_tcpm(machine::Machine& machine, bool on) {
   machine::Modes modes = machine.state().modes;
   modes.tcpm = on;
-  return lift(machine.set_modes(modes));
+  return machine.set_modes(modes);
 }
 
 CycleResult<void> reset_tilting(machine::Machine& machine) {
   machine::Frames frames = machine.state().frames;
   frames.set_plane(std::nullopt);
-  TRY(lift(machine.set_frames(frames)));
+  TRY(machine.set_frames(frames));
   return set_tcpm(machine, false);
 }
 
@@ -101,7 +101,7 @@ CycleResult<void> KinematicsProbing::move(const AxisWords& words, const Feed& fe
   if (!moved && moved.error().kind == machine::FaultKind::AxisLimit) {
     return nc_error(1101, moved.error().text);
   }
-  return lift(moved);
+  return moved;
 }
 
 CycleResult<void> KinematicsProbing::move_tip(const Vec3& tip) {
@@ -124,12 +124,12 @@ CycleResult<void> KinematicsProbing::go_over(const Vec3& sphere) {
 }
 
 CycleResult<Vec3> KinematicsProbing::touch(const Vec3& direction) {
-  const auto contact = TRY(lift(context_.machine.probe({.direction = direction,
-                                                        .distance = probe_.data.distance,
-                                                        .feed = probe_.data.feed,
-                                                        .system = CoordinateSystem::Machine,
-                                                        .retract = std::nullopt,
-                                                        .retract_feed = feed()})));
+  const auto contact = TRY(context_.machine.probe({.direction = direction,
+                                                   .distance = probe_.data.distance,
+                                                   .feed = probe_.data.feed,
+                                                   .system = CoordinateSystem::Machine,
+                                                   .retract = std::nullopt,
+                                                   .retract_feed = feed()}));
   publish_touch(state(), context_.host, contact);
   return contact.tip_machine + tool_direction() * probe_.radius;
 }

@@ -173,7 +173,7 @@ CycleResult<void> measure(const CycleContext& context, const Vec3& direction, bo
   if (!contact) {
     const FaultKind kind = contact.error().kind;
     const bool untouched = kind == FaultKind::NoContact || kind == FaultKind::StylusDeflected;
-    if (!untouched || !goes_on) return from_machine(contact.error());
+    if (!untouched || !goes_on) return contact.error();
     context.host.set_q(fourth, -1, Unit::None);
     return {};
   }

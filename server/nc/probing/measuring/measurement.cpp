@@ -115,7 +115,7 @@ CycleResult<void> correct_tool(const CycleContext& context, const ToolCorrection
   const Length breakage = to_length(radius ? tool.r_breakage : tool.l_breakage);
   const bool broken = breakage > Length{} && magnitude(correction.deviation) > breakage;
   tool.locked = tool.locked || broken;
-  TRY(lift(context.machine.write_tool(tool)));
+  TRY(context.machine.write_tool(tool));
   if (!broken) return {};
   return nc_error(1065, fmt::format("deviation {} mm, tool {} is locked",
                                     format_mm(correction.deviation), tool.number));

@@ -70,9 +70,9 @@ CycleResult<void> write_preset(const CycleContext& context, const PresetFrame& t
   }
   const Matrix3 axes = axes_of(state.frames, row.frame);
   for (const Found& point : points) move_zero(row.frame, axes, point);
-  TRY(lift(context.machine.write_preset(row)));
+  TRY(context.machine.write_preset(row));
   if (number != 0) return {};
-  return lift(context.machine.activate_preset(0));
+  return context.machine.activate_preset(0);
 }
 
 CycleResult<void> write_datum_table(const CycleContext& context, const PresetFrame& turned,
@@ -148,7 +148,7 @@ CycleResult<void> correct_preset(const CycleContext& context, const WorkingPlane
   row.frame.origin = tidy(row.frame.origin + turned.origin - before.origin);
   row.frame.basic_rotation_deg = turned.basic_rotation_deg;
   row.frame.rotary_offsets_deg = turned.rotary_offsets_deg;
-  TRY(lift(context.machine.write_preset(row)));
+  TRY(context.machine.write_preset(row));
   return replace_active_preset(context.machine, turned);
 }
 

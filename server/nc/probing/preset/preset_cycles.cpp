@@ -252,11 +252,11 @@ CycleResult<int> named_row(const machine::PresetTable& presets, const std::strin
 CycleResult<void> activate(const CycleContext& context) {
   if (const std::string* name = context.text(q(339))) {
     const auto row = TRY(named_row(context.state().presets, *name));
-    return lift(context.machine.activate_preset(row));
+    return context.machine.activate_preset(row);
   }
   const double number = context.number(339);
   if (number != std::nearbyint(number)) return nc_error(1011, "Q339 must be a whole number");
-  return lift(context.machine.activate_preset(static_cast<int>(number)));
+  return context.machine.activate_preset(static_cast<int>(number));
 }
 
 constexpr TouchProbeCycle kCycles[] = {

@@ -54,7 +54,7 @@ CycleResult<void> calibrate(const CycleContext& context, CycleResult<ToolProbing
   found.shape = state.tt.shape;
   if (found.radius <= 0)
     return nc_error(1109, "the tool table has a radius R of the calibrating tool too large");
-  return lift(context.machine.write_tool_touch_probe(found));
+  return context.machine.write_tool_touch_probe(found);
 }
 
 CycleResult<void> calibrate_at_known_place(const CycleContext& context) {

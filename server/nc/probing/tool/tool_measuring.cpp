@@ -18,9 +18,9 @@ using machine::make_fault;
 enum class ToolForm : std::uint8_t { Mill, Lathe };
 
 CycleResult<void> check(const MachineState& state, ToolForm form = ToolForm::Mill) {
-  if (!state.tool.axis) return from_machine(make_fault(FaultKind::ToolAxisMissing));
+  if (!state.tool.axis) return make_fault(FaultKind::ToolAxisMissing);
   const machine::Tool* tool = state.active_tool();
-  if (tool == nullptr) return from_machine(make_fault(FaultKind::NoTool));
+  if (tool == nullptr) return make_fault(FaultKind::NoTool);
   if (tool->is_probe()) {
     return nc_error(1093, fmt::format("tool {} is a touch probe", tool->number));
   }
@@ -93,7 +93,7 @@ CycleResult<void> write_measured(const CycleContext& context, ToolMode mode, mac
   context.host.set_q(kToolStatus.q, static_cast<double>(status), Unit::None);
   if (mode == ToolMode::CheckOnly) return {};
   tool.locked = tool.locked || status != ToolStatus::WithinTolerance;
-  return lift(context.machine.write_tool(tool));
+  return context.machine.write_tool(tool);
 }
 
 CycleResult<ToolProbing> ToolProbing::begin(const CycleContext& context, double clearance_height) {
@@ -112,7 +112,7 @@ CycleResult<ToolProbing> ToolProbing::begin_lathe(const CycleContext& context,
   const machine::LatheTool& lathe = *state.active_tool()->lathe;
   machine::Modes modes = state.modes;
   modes.spindle_deg = lathe.ori;
-  TRY(lift(context.machine.set_modes(modes)));
+  TRY(context.machine.set_modes(modes));
   const double start = state.tt.centre.z + tt_parameters::kSafetyDistance + lathe.below_tip();
   const double height = state.frames.to_machine({0, 0, clearance_height}).z;
   return ToolProbing(context, std::max(height, start), start);
@@ -160,7 +160,7 @@ CycleResult<void> ToolProbing::move_over(Point2 at) {
 }
 
 CycleResult<void> ToolProbing::move(const AxisWords& target) {
-  return lift(machine_.move({target, Feed::rapid(), CoordinateSystem::Machine}));
+  return machine_.move({target, Feed::rapid(), CoordinateSystem::Machine});
 }
 
 CycleResult<Vec3> ToolProbing::probe(const Vec3& direction, Spindle spindle) {
@@ -172,7 +172,7 @@ CycleResult<Vec3> ToolProbing::probe(const Vec3& direction, Spindle spindle) {
                                        .retract = std::nullopt,
                                        .retract_feed = Feed::rapid()});
   if (contact) return contact->tip_machine;
-  if (contact.error().kind != FaultKind::NoContact) return from_machine(contact.error());
+  if (contact.error().kind != FaultKind::NoContact) return contact.error();
   return nc_error(1014, fmt::format("tool {} does not reach the tool touch probe within {} mm",
                                     state.tool.number, tt_parameters::kLongestProbing));
 }

@@ -32,8 +32,8 @@ std::string for_other_side(int cycle, bool is_boss) {
 
 CycleFault with_part(CycleFault fault, const CycleContext& context, const WorkingPlane& plane,
                      std::span<const PlannedPlace> places) {
-  const bool is_touch = fault.of_machine == machine::FaultKind::NoContact ||
-                        fault.of_machine == machine::FaultKind::Collision;
+  const bool is_touch =
+      fault.kind == machine::FaultKind::NoContact || fault.kind == machine::FaultKind::Collision;
   constexpr double kFar = 0.5;
   if (!is_touch) return fault;
   for (const PlannedPlace& place : places) {

@@ -28,13 +28,13 @@ CycleResult<ProbingMotion> ProbingMotion::begin(const CycleContext& context) {
   using machine::FaultKind;
   using machine::make_fault;
   const MachineState& state = context.state();
-  if (!state.tool.axis) return from_machine(make_fault(FaultKind::ToolAxisMissing));
-  if (state.active_tool() == nullptr) return from_machine(make_fault(FaultKind::NoTool));
+  if (!state.tool.axis) return make_fault(FaultKind::ToolAxisMissing);
+  if (state.active_tool() == nullptr) return make_fault(FaultKind::NoTool);
   const auto probe = state.probe_system();
   if (!probe) {
-    return from_machine(
-        make_fault(FaultKind::NotAProbe,
-                   fmt::format("tool {} is not a touch probe: set its TP_NO", state.tool.number)));
+    return make_fault(
+        FaultKind::NotAProbe,
+        fmt::format("tool {} is not a touch probe: set its TP_NO", state.tool.number));
   }
   return ProbingMotion(context, *probe);
 }
@@ -82,11 +82,11 @@ CycleResult<void> ProbingMotion::via_clearance_height(const Vec3& start, double 
 
 CycleResult<void> ProbingMotion::arc(const Touch& touch) {
   const Vec3 offset = ball_offset();
-  return lift(context_.machine.move_arc({.end = plane_.to_input(touch.start) - offset,
-                                         .centre = plane_.to_input(touch.arc_centre) - offset,
-                                         .sweep_deg = touch.arc_sweep,
-                                         .normal = plane_.probe,
-                                         .feed = positioning_feed()}));
+  return context_.machine.move_arc({.end = plane_.to_input(touch.start) - offset,
+                                    .centre = plane_.to_input(touch.arc_centre) - offset,
+                                    .sweep_deg = touch.arc_sweep,
+                                    .normal = plane_.probe,
+                                    .feed = positioning_feed()});
 }
 
 CycleResult<Contact> ProbingMotion::probe(const Vec3& direction) {
@@ -97,17 +97,17 @@ CycleResult<Contact> ProbingMotion::probe(const Vec3& direction) {
                                          .retract = std::nullopt,
                                          .retract_feed = positioning_feed()});
   if (!contact && contact.error().kind == machine::FaultKind::NoContact) {
-    return from_machine(
-        make_fault(machine::FaultKind::NoContact,
-                   fmt::format("nothing within DIST = {} mm of the start", probe_.data.distance)));
+    return make_fault(
+        machine::FaultKind::NoContact,
+        fmt::format("nothing within DIST = {} mm of the start", probe_.data.distance));
   }
-  if (!contact) return from_machine(contact.error());
+  if (!contact) return contact.error();
   publish_touch(context_.state(), context_.host, *contact);
   return Contact{plane_.from_input(contact->ball_centre), plane_.from_input(contact->surface)};
 }
 
 CycleResult<void> ProbingMotion::move_tip(const AxisWords& target) {
-  return lift(context_.machine.move({target, positioning_feed()}));
+  return context_.machine.move({target, positioning_feed()});
 }
 
 CycleResult<void> ProbingMotion::move_ball(const Vec3& centre) {

@@ -124,15 +124,4 @@ CycleResult<void> refuse_mirror_and_scaling(const machine::Frames& frames);
 void publish_touch(const machine::MachineState& state, CycleHost& host,
                    const machine::ContactPoint& contact);
 
-/// Converts a machine's result to a cycle's.
-template <class T>
-CycleResult<T> lift(machine::MachineResult<T> result) {
-  if (!result) return from_machine(result.error());
-  if constexpr (std::is_void_v<T>) {
-    return {};
-  } else {
-    return std::move(*result);
-  }
-}
-
 }  // namespace fitgauge::probing

@@ -24,7 +24,7 @@ TEST_CASE("missing parameters take their default, required ones are an error") {
   Arguments arguments(kDescriptor);
   const auto missing = arguments.complete();
   REQUIRE(missing.has_error());
-  CHECK(missing.error() == CycleFault{CycleFaultKind::Error, 1017,
+  CHECK(missing.error() == CycleFault{machine::FaultKind::Error, 1017,
                                       "CYCL incomplete: Q262 Nominal diameter is missing"});
   arguments.set(q(262), 25.0);
   REQUIRE(arguments.complete().has_value());

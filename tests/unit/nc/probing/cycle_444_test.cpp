@@ -71,7 +71,7 @@ TEST_CASE("444: good, rework and reject along the normal, limits inclusive, and 
     CHECK(bench.run(444, with(top_point(), {{309, 1.0}})) == c.error_of_1);
     CHECK(bench.run(444, with(top_point(), {{309, 2.0}})) == c.error_of_2);
     CHECK(bench.fault.kind ==
-          (c.error_of_1 == 0 ? CycleFaultKind::Error : CycleFaultKind::ToleranceStop));
+          (c.error_of_1 == 0 ? machine::FaultKind::Error : machine::FaultKind::Stop));
     CHECK(bench.host.q[183] == c.status);
     REQUIRE(bench.host.records.size() == 3);
     CHECK(same(bench.host.records.back().sizes.front().measured.to_mm(), c.deviation));

@@ -84,7 +84,7 @@ TEST_CASE("a fault carries the kind of the machine's fault, and none of its own"
   const Values two{{268, 50.0}, {269, 80.0}, {270, 150.0}, {271, 80.0}, {260, 40.0}};
   ProbingBench bosses(kBosses);
   CHECK(bosses.run(401, with(two, {{261, 5.0}})) == -1);
-  CHECK(bosses.fault.of_machine == machine::FaultKind::Collision);
+  CHECK(bosses.fault.kind == machine::FaultKind::Collision);
   ProbingBench bores(kBores);
   CHECK(bores.run(401, with(two, {{261, -5.0}, {270, 50.0}})) == 1081);
   CHECK_FALSE(bores.fault.of_machine);
