@@ -3,19 +3,25 @@
 #include "nc/machine/axes.hpp"
 #include "nc/machine/machine.hpp"
 #include "nc/machine/machine_setup.hpp"
-#include "nc/machine/path.hpp"
+#include "nc/machine/traced_move.hpp"
 
 namespace fitgauge::machine {
 
 /// The control above the axes: tables, frames, modes, tool calls, targets of moves, axis ranges,
-/// machining time. The axes report contacts on the way. Its three files are the tables and frames,
-/// the motion, and the probing. Owns its state and its axes. Not thread-safe. After a fault, the
-/// state contains the finished part of the command.
+/// machining time. The axes report contacts on the way. Its files are the tables, frames and
+/// probing, the motion, and the trace. Owns its state and its axes. Not thread-safe. After a fault,
+/// the state contains the finished part of the command.
 class Control : public Machine {
  public:
   /// @param allowance ends a move when it stops; null: nothing interrupts moves
   /// @pre validate() accepts the setup that `setup` is part of; `allowance` outlives the machine
   Control(const MachineSetup& setup, std::unique_ptr<Axes> axes, Allowance* allowance = nullptr);
+
+  /// Calls `keep` with each move at its end, at most `longest` times. A probing move is followed by
+  /// the rapid of its way back; a move that ends at a fault is recorded up to the fault.
+  void trace(std::function<void(const TracedMove&)> keep, std::size_t longest);
+  /// Moves that came after the longest trace was full.
+  std::size_t untraced() const { return untraced_; }
 
   const MachineState& state() const final { return state_; }
   MachineResult<void> move(const LinearMove& move) final;
@@ -40,6 +46,24 @@ class Control : public Machine {
   bool has_entered_part() const final { return axes_->has_entered_part(); }
 
  private:
+  /// A traced move in progress: its start.
+  struct Begun {
+    Position start;
+    Vec3 machine_start;
+    double elapsed_s;
+  };
+
+  MachineResult<void> move_straight(const LinearMove& move);
+  MachineResult<void> move_around(const ArcMove& arc);
+  MachineResult<ContactPoint> touch(const ProbeMove& move);
+  std::optional<Begun> begin() const;
+  Vec3 machine_tip() const { return state_.position(CoordinateSystem::Machine).linear; }
+  TracedArc traced(const ArcMove& arc, const Begun& begun) const;
+  void add(const TracedMove& move);
+  void keep(MoveKind kind, const Begun& begun, const Feed& feed,
+            const std::optional<TracedArc>& arc = std::nullopt);
+  void keep_probing(const Begun& begun, const ProbeMove& move,
+                    const MachineResult<ContactPoint>& contact);
   static MachineResult<void> check_feed(const Feed& feed);
   double seconds_of(double way, const Feed& feed) const;
   void spend(double seconds);
@@ -66,6 +90,9 @@ class Control : public Machine {
   MachineState state_;
   Allowance unlimited_;
   Allowance& allowance_;
+  std::function<void(const TracedMove&)> keep_;
+  std::size_t left_ = 0;  ///< moves that the trace can still take
+  std::size_t untraced_ = 0;
 };
 
 }  // namespace fitgauge::machine

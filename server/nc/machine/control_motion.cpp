@@ -18,7 +18,7 @@ MachineResult<void> check_finite(const AxisWords& words) {
 
 }  // namespace
 
-MachineResult<void> Control::move(const LinearMove& move) {
+MachineResult<void> Control::move_straight(const LinearMove& move) {
   TRY(check_feed(move.feed));
   TRY(check_finite(move.target));
   const auto rotary = TRY(target_rotary(move));
@@ -112,7 +112,7 @@ Path Control::following_path(const Position& end) const {
   return path;
 }
 
-MachineResult<void> Control::move_arc(const ArcMove& arc) {
+MachineResult<void> Control::move_around(const ArcMove& arc) {
   TRY(check_feed(arc.feed));
   constexpr double kLongestSweepDeg = 1e6;
   TRY(require(is_finite(arc.end) && is_finite(arc.centre) && !is_rotary(arc.normal) &&

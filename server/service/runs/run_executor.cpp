@@ -1,11 +1,11 @@
 #include "service/runs/run_executor.hpp"
 
 #include "nc/machine/simulated_machine.hpp"
-#include "nc/program/linker.hpp"
+#include "nc/program/program_cache.hpp"
 #include "nc/run/call_stack.hpp"
-#include "nc/run/origins.hpp"
 #include "nc/run/q_parameters.hpp"
 #include "nc/run/run_files.hpp"
+#include "nc/run/run_log.hpp"
 
 namespace fitgauge::app {
 namespace {
@@ -221,7 +221,7 @@ ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active) {
   Follower follower(active, allowance, surroundings.shows_last);
   std::optional<machine::SimulatedMachine> simulated;
   std::optional<machine::ScriptedMachine> scripted;
-  machine::Machine* actual = nullptr;
+  machine::Control* actual = nullptr;
   if (order.contacts) {
     actual = &scripted.emplace(order.setup.machine, *order.contacts, &allowance);
   } else {
@@ -229,13 +229,13 @@ ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active) {
   }
   TraceWriter trace(surroundings.trace, axes_of(order.setup));
   const auto keep = [&](const machine::TracedMove& move) { trace.add(move, follower.place()); };
-  machine::TracingMachine machine(*actual, {.keep = keep, .longest = kLongestTrace});
-  follower.follow(machine);
+  actual->trace(keep, kLongestTrace);
+  follower.follow(*actual);
   follower.watch(trace, order.watch);
   ExecutedRun executed;
   executed.result = interpreter::run(
       linked,
-      {machine, surroundings.disk, surroundings.programs, surroundings.clock, follower, &allowance},
+      {*actual, surroundings.disk, surroundings.programs, surroundings.clock, follower, &allowance},
       order.options);
   if (scripted && scripted->remaining() > 0) {
     executed.result.messages.push_back(
@@ -246,7 +246,7 @@ ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active) {
          .line = 1,
          .block = 0});
   }
-  executed.trace = trace.finish(machine.dropped());
+  executed.trace = trace.finish(actual->untraced());
   return executed;
 }
 

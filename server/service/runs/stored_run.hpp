@@ -3,7 +3,7 @@
 #include "base/gzip.hpp"
 #include "nc/machine/machine_setup.hpp"
 #include "nc/machine/scripted_machine.hpp"
-#include "nc/machine/tracing_machine.hpp"
+#include "nc/machine/traced_move.hpp"
 #include "nc/run/interpreter.hpp"
 #include "record/measurement.hpp"
 #include "service/storage.hpp"

@@ -9,7 +9,7 @@
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/probing/cycle_descriptor.hpp"
 #include "nc/probing/cycles.hpp"
-#include "nc/program/linker.hpp"
+#include "nc/program/program_cache.hpp"
 
 /// The errors of each cycle, as errors.txt says how to come by them.
 namespace fitgauge::interpreter::golden {

@@ -4,7 +4,7 @@
 
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/program/check.hpp"
-#include "nc/program/linker.hpp"
+#include "nc/program/program_cache.hpp"
 #include "tables/tabfile/iso286_projection.hpp"
 #include "tables/tabfile/tab_table.hpp"
 

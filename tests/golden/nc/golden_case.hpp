@@ -4,9 +4,9 @@
 
 #include "golden_setup.hpp"
 #include "nc/klartext/diagnostic.hpp"
-#include "nc/machine/tracing_machine.hpp"
 #include "nc/program/control_disk.hpp"
 #include "nc/program/program_cache.hpp"
+#include "support/tracing_machine.hpp"
 
 namespace fitgauge::interpreter::golden {
 

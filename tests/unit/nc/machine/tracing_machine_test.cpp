@@ -1,4 +1,4 @@
-#include "nc/machine/tracing_machine.hpp"
+#include "support/tracing_machine.hpp"
 
 #include <doctest/doctest.h>
 

@@ -3,10 +3,10 @@
 #include <doctest/doctest.h>
 
 #include "nc/machine/simulated_machine.hpp"
-#include "nc/machine/tracing_machine.hpp"
 #include "nc/program/check.hpp"
-#include "nc/program/linker.hpp"
+#include "nc/program/program_cache.hpp"
 #include "nc/run/interpreter.hpp"
+#include "support/tracing_machine.hpp"
 
 namespace fitgauge::interpreter {
 
