@@ -87,7 +87,7 @@ TEST_CASE("a fault carries the kind of the machine's fault, and none of its own"
   CHECK(bosses.fault.kind == machine::FaultKind::Collision);
   ProbingBench bores(kBores);
   CHECK(bores.run(401, with(two, {{261, -5.0}, {270, 50.0}})) == 1081);
-  CHECK_FALSE(bores.fault.of_machine);
+  CHECK(bores.fault.kind == machine::FaultKind::Error);
 }
 
 }  // namespace fitgauge::probing
