@@ -8,7 +8,7 @@
 #include "cli/nc_commands.hpp"
 #include "nc/program/check.hpp"
 #include "nc/program/diagnose.hpp"
-#include "nc/program/linker.hpp"
+#include "nc/program/program_cache.hpp"
 #include "service/runs/control_files.hpp"
 #include "service/runs/run_executor.hpp"
 

@@ -10,8 +10,8 @@
 #include "nc/iso/parser.hpp"
 #include "nc/klartext/source_text.hpp"
 #include "nc/program/check.hpp"
-#include "nc/program/linker.hpp"
 #include "nc/program/parameter.hpp"
+#include "nc/program/program_cache.hpp"
 
 namespace fitgauge::cli {
 namespace {

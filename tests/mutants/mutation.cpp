@@ -5,7 +5,7 @@
 
 #include "base/text.hpp"
 #include "nc/probing/cycles.hpp"
-#include "nc/program/machining_cycles.hpp"
+#include "nc/program/cycles.hpp"
 
 namespace fitgauge::mutants {
 namespace {

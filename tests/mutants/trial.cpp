@@ -3,9 +3,9 @@
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/program/parameter.hpp"
 #include "nc/run/call_stack.hpp"
-#include "nc/run/origins.hpp"
 #include "nc/run/q_parameters.hpp"
 #include "nc/run/run_files.hpp"
+#include "nc/run/run_log.hpp"
 
 namespace fitgauge::mutants {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "base/json/body_forms.hpp"
 #include "nc/probing/cycles.hpp"
-#include "nc/program/machining_cycles.hpp"
+#include "nc/program/cycles.hpp"
 
 namespace fitgauge::api {
 

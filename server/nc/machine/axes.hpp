@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/allowance.hpp"
+#include "nc/machine/axis.hpp"
 #include "nc/machine/fault.hpp"
-#include "nc/machine/path.hpp"
 
 namespace fitgauge::machine {
 

@@ -1,4 +1,4 @@
-#include "nc/machine/bore_void.hpp"
+#include "nc/machine/solid.hpp"
 
 #include "nc/machine/tolerance.hpp"
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "nc/machine/axis.hpp"
-#include "nc/machine/geometry.hpp"
 
 namespace fitgauge::machine {
 

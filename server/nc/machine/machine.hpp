@@ -1,9 +1,7 @@
 #pragma once
 
-#include "nc/machine/axis.hpp"
 #include "nc/machine/fault.hpp"
 #include "nc/machine/machine_state.hpp"
-#include "nc/machine/path.hpp"
 
 namespace fitgauge::machine {
 

@@ -1,10 +1,7 @@
 #pragma once
 
 #include "base/result.hpp"
-#include "nc/machine/axis.hpp"
-#include "nc/machine/kinematics.hpp"
 #include "nc/machine/machine_state.hpp"
-#include "nc/machine/tables.hpp"
 
 namespace fitgauge::machine {
 

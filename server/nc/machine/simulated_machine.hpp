@@ -1,8 +1,6 @@
 #pragma once
 
-#include "nc/machine/axes.hpp"
 #include "nc/machine/control.hpp"
-#include "nc/machine/machine_setup.hpp"
 #include "nc/machine/random.hpp"
 #include "nc/machine/workpiece.hpp"
 

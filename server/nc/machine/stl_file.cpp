@@ -1,4 +1,4 @@
-#include "nc/machine/stl_file.hpp"
+#include "nc/machine/triangle_tree.hpp"
 
 #include "base/number.hpp"
 

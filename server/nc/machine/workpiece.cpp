@@ -1,9 +1,7 @@
 #include "nc/machine/workpiece.hpp"
 
-#include "nc/machine/bore_void.hpp"
 #include "nc/machine/solid.hpp"
 #include "nc/machine/sphere_tracing.hpp"
-#include "nc/machine/tolerance.hpp"
 
 namespace fitgauge::machine {
 namespace {

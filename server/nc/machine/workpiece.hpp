@@ -2,7 +2,6 @@
 
 #include "base/allowance.hpp"
 #include "nc/machine/box_tree.hpp"
-#include "nc/machine/geometry.hpp"
 #include "nc/machine/machine_setup.hpp"
 
 namespace fitgauge::machine {

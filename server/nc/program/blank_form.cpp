@@ -1,6 +1,4 @@
-#include "nc/program/blank_form.hpp"
-
-#include "nc/klartext/word_names.hpp"
+#include "nc/program/link_check.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

@@ -1,10 +1,7 @@
 #include "nc/program/check.hpp"
 
-#include "base/text.hpp"
-#include "nc/klartext/parser.hpp"
-#include "nc/program/blank_form.hpp"
 #include "nc/program/diagnose.hpp"
-#include "nc/program/linker.hpp"
+#include "nc/program/link_check.hpp"
 #include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::interpreter {

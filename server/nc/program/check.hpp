@@ -1,9 +1,6 @@
 #pragma once
 
 #include "base/allowance.hpp"
-#include "base/result.hpp"
-#include "nc/klartext/diagnostic.hpp"
-#include "nc/program/control_disk.hpp"
 #include "nc/program/program_cache.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,13 +1,9 @@
 #include <bitset>
 
-#include "base/text.hpp"
 #include "nc/probing/cycles.hpp"
-#include "nc/program/blank_form.hpp"
 #include "nc/program/cycles.hpp"
-#include "nc/program/diagnose.hpp"
 #include "nc/program/followed_values.hpp"
 #include "nc/program/link_check.hpp"
-#include "nc/program/machining_cycles.hpp"
 #include "nc/program/parameter.hpp"
 #include "nc/program/word_senses.hpp"
 

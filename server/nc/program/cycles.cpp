@@ -1,9 +1,7 @@
 #include "nc/program/cycles.hpp"
 
-#include "base/text.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/parameters.hpp"
-#include "nc/program/machining_cycles.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

@@ -1,6 +1,5 @@
 #include "nc/program/diagnose.hpp"
 
-#include "base/text.hpp"
 #include "nc/program/parameter.hpp"
 
 namespace fitgauge::interpreter {

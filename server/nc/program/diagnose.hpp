@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/text.hpp"
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/syntax.hpp"
 

@@ -1,8 +1,6 @@
 #pragma once
 
 #include "base/number.hpp"
-#include "nc/klartext/diagnostic.hpp"
-#include "nc/klartext/syntax.hpp"
 #include "nc/program/arithmetic.hpp"
 #include "nc/program/diagnose.hpp"
 

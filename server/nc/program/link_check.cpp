@@ -2,14 +2,10 @@
 
 #include <bitset>
 
-#include "base/text.hpp"
 #include "nc/klartext/parser.hpp"
-#include "nc/klartext/word_names.hpp"
 #include "nc/probing/cycles.hpp"
-#include "nc/program/blank_form.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
-#include "nc/program/machining_cycles.hpp"
 #include "nc/program/parameter.hpp"
 #include "nc/program/system_addresses.hpp"
 #include "nc/program/word_senses.hpp"

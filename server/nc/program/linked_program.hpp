@@ -2,7 +2,6 @@
 
 #include <unordered_map>
 
-#include "nc/klartext/syntax.hpp"
 #include "nc/program/code.hpp"
 #include "nc/program/control_disk.hpp"
 #include "nc/program/cycles.hpp"

@@ -1,6 +1,3 @@
-#include "nc/program/linker.hpp"
-
-#include "base/text.hpp"
 #include "nc/program/arithmetic.hpp"
 #include "nc/program/check.hpp"
 #include "nc/program/diagnose.hpp"
@@ -341,6 +338,12 @@ std::size_t memory_of(const LinkedParts& parts) {
   return bytes;
 }
 
+template <class Map, class Key>
+std::optional<std::uint32_t> lookup(const Map& map, const Key& key) {
+  const auto it = map.find(key);
+  return it == map.end() ? std::nullopt : std::optional(it->second);
+}
+
 }  // namespace
 
 LinkedFile link(klartext::ParsedProgram parsed, const ControlPath& path) {
@@ -361,6 +364,23 @@ LinkedFile link(klartext::ParsedProgram parsed, const ControlPath& path) {
       std::make_shared<const LinkedProgram>(path, std::move(parsed.program), std::move(parts));
   if (!has_errors(file.diagnostics)) file.program = file.with_error_blocks;
   return file;
+}
+
+std::optional<std::uint32_t> LinkedProgram::instruction_of(std::uint32_t block_number) const {
+  const auto& blocks = program_.blocks();
+  const auto block = std::ranges::find(blocks, block_number, &klartext::Block::number);
+  if (block == blocks.end()) return std::nullopt;
+  const auto index = static_cast<std::uint32_t>(block - blocks.begin());
+  const auto first = std::ranges::lower_bound(parts_.block_of, index);
+  return static_cast<std::uint32_t>(first - parts_.block_of.begin());
+}
+
+std::optional<std::uint32_t> LinkedParts::label(std::uint32_t number) const {
+  return lookup(numbered_labels, number);
+}
+
+std::optional<std::uint32_t> LinkedParts::label(std::string_view name) const {
+  return lookup(named_labels, ascii_upper(name));
 }
 
 }  // namespace fitgauge::interpreter

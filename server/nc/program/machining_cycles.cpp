@@ -1,4 +1,4 @@
-#include "nc/program/machining_cycles.hpp"
+#include "nc/program/cycles.hpp"
 
 #include "nc/probing/parameters.hpp"
 

@@ -1,7 +1,6 @@
 #include "nc/program/program_cache.hpp"
 
 #include "nc/iso/parser.hpp"
-#include "nc/program/linker.hpp"
 
 namespace fitgauge::interpreter {
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "nc/program/linked_program.hpp"
-#include "nc/run/nc_error.hpp"
 #include "nc/run/run_budget.hpp"
 #include "nc/run/run_observer.hpp"
 

@@ -1,18 +1,12 @@
 #pragma once
 
-#include "nc/machine/machine.hpp"
-#include "nc/probing/cycle_host.hpp"
-#include "nc/run/active_cycle.hpp"
 #include "nc/run/call_stack.hpp"
 #include "nc/run/contour.hpp"
 #include "nc/run/formatted_printer.hpp"
 #include "nc/run/interpreter.hpp"
-#include "nc/run/q_parameters.hpp"
-#include "nc/run/run_budget.hpp"
-#include "nc/run/run_files.hpp"
-#include "nc/run/run_log.hpp"
+#include "nc/run/machining.hpp"
+#include "nc/run/motion_words.hpp"
 #include "nc/run/table_access.hpp"
-#include "nc/run/tool_orientation.hpp"
 
 namespace fitgauge::interpreter {
 

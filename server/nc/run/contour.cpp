@@ -1,7 +1,5 @@
 #include "nc/run/contour.hpp"
 
-#include "nc/machine/tolerance.hpp"
-
 namespace fitgauge::interpreter {
 namespace {
 

@@ -1,8 +1,4 @@
-#include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/cutter_path.hpp"
-#include "nc/run/machining.hpp"
-#include "nc/run/sl_contour.hpp"
 
 /// SL cycles 21 to 24 over the contours of cycle 14 and the data of cycle 20.
 namespace fitgauge::interpreter {

@@ -1,7 +1,6 @@
 #include "nc/run/cutter_path.hpp"
 
-#include "nc/machine/tolerance.hpp"
-#include "nc/run/tool_orientation.hpp"
+#include "nc/run/motion_words.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "nc/machine/machine.hpp"
 #include "nc/machine/tolerance.hpp"
-#include "nc/run/nc_error.hpp"
 #include "nc/run/plane_geometry.hpp"
 #include "nc/run/run_budget.hpp"
 

@@ -1,11 +1,5 @@
-#include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
-#include "nc/program/linked_program.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/frame_commands.hpp"
-#include "nc/run/kinematics_records.hpp"
-#include "nc/run/machining.hpp"
-#include "nc/run/machining_arguments.hpp"
 #include "nc/run/statements.hpp"
 #include "nc/run/values.hpp"
 

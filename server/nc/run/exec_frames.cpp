@@ -1,7 +1,5 @@
 #include "nc/klartext/parser_words.hpp"
-#include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/frame_commands.hpp"
 #include "nc/run/statements.hpp"
 #include "nc/run/values.hpp"
 

@@ -1,7 +1,5 @@
 #include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
-#include "nc/run/tool_orientation.hpp"
-#include "nc/run/tool_values.hpp"
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,7 +1,5 @@
-#include "base/text.hpp"
-#include "nc/program/blank_form.hpp"
+#include "nc/program/link_check.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/formatted_printer.hpp"
 #include "nc/run/statements.hpp"
 #include "nc/run/values.hpp"
 

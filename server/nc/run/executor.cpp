@@ -1,4 +1,3 @@
-#include "nc/program/arithmetic.hpp"
 #include "nc/run/executor_steps.hpp"
 #include "nc/run/statements.hpp"
 

@@ -1,9 +1,6 @@
 #include "nc/run/executor_steps.hpp"
 
-#include "nc/program/arithmetic.hpp"
-#include "nc/program/linked_program.hpp"
 #include "nc/run/statements.hpp"
-#include "nc/run/tool_values.hpp"
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,4 +1,3 @@
-#include "nc/machine/tolerance.hpp"
 #include "nc/run/machining.hpp"
 
 /// Cycle 232, by page 236 of the TNC 640 manual 34059x-01; that Q389 = 1 steps over at the feed for

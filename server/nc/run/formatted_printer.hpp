@@ -1,10 +1,7 @@
 #pragma once
 
 #include "nc/klartext/mask_file.hpp"
-#include "nc/program/control_disk.hpp"
-#include "nc/run/nc_error.hpp"
 #include "nc/run/run_files.hpp"
-#include "nc/run/run_log.hpp"
 
 namespace fitgauge::interpreter {
 

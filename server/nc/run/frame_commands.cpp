@@ -1,11 +1,6 @@
-#include "nc/run/frame_commands.hpp"
-
-#include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/plane_geometry.hpp"
 #include "nc/run/statements.hpp"
-#include "nc/run/tool_orientation.hpp"
-#include "nc/run/tool_values.hpp"
+#include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

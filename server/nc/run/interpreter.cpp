@@ -1,7 +1,6 @@
 #include "nc/run/interpreter.hpp"
 
 #include "nc/run/channel.hpp"
-#include "nc/run/origins.hpp"
 #include "nc/run/statements.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,16 +1,9 @@
 #pragma once
 
-#include "base/allowance.hpp"
-#include "base/clock.hpp"
 #include "nc/klartext/mask_file.hpp"
-#include "nc/machine/machine.hpp"
-#include "nc/program/control_disk.hpp"
-#include "nc/program/parameter.hpp"
 #include "nc/program/program_cache.hpp"
-#include "nc/run/nc_error.hpp"
 #include "nc/run/run_budget.hpp"
 #include "nc/run/run_observer.hpp"
-#include "nc/run/run_result.hpp"
 
 namespace fitgauge::interpreter {
 

@@ -1,9 +1,8 @@
 #include "nc/run/statements.hpp"
 
-#include "nc/machine/tolerance.hpp"
 #include "nc/probing/alignment/rotation.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/tool_values.hpp"
+#include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

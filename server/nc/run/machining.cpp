@@ -1,6 +1,5 @@
 #include "nc/run/machining.hpp"
 
-#include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,16 +1,44 @@
 #pragma once
 
-#include "nc/machine/machine.hpp"
-#include "nc/run/active_cycle.hpp"
+#include "nc/program/control_disk.hpp"
+#include "nc/program/cycles.hpp"
 #include "nc/run/cutter_path.hpp"
-#include "nc/run/nc_error.hpp"
-#include "nc/run/plane_geometry.hpp"
-#include "nc/run/run_budget.hpp"
 
 /// The machining cycles as motion of the tool, one function for each shape. Each begins at the
 /// current position in the plane and ends over the surface, at the larger of its clearances.
 /// @errors 1010 no feed, 1042 a depth of 0, and those of the machine and the budget.
 namespace fitgauge::interpreter {
+
+/// A machining cycle with the values of its block, defaults included, in mm, mm/min, degrees and
+/// seconds, by the number of their parameter. A feed of infinity is FMAX.
+struct MachiningDefinition {
+  const MachiningCycle* cycle = nullptr;
+  std::map<int, double> values{};
+  std::set<int> given{};  ///< the parameters that the block names
+  std::string text{};     ///< QS500
+
+  double value(int parameter, double otherwise = 0) const {
+    const auto it = values.find(parameter);
+    return it == values.end() ? otherwise : it->second;
+  }
+  bool gives(int parameter) const { return given.contains(parameter); }
+};
+
+/// A cycle of the machine builder that the setup ignores.
+struct IgnoredCycle {};
+
+/// The target of CYCL CALL, M99 and M89: the last call-active cycle, a machining cycle or a program
+/// (CYCL DEF 12); and what cycles and PATTERN DEF leave for it.
+struct ActiveCycle {
+  std::variant<std::monostate, MachiningDefinition, ControlPath, IgnoredCycle> definition;
+  bool after_every_block = false;  ///< M89
+  /// Numbers for FN 18 ID 10: the last call-active cycle and the last TCH PROBE.
+  int number = -1;
+  int last_probing = -1;
+  std::vector<machine::Vec3> pattern{};               ///< PATTERN DEF: X, Y, and in Z its surface
+  std::vector<klartext::Label> contours{};            ///< cycle 14
+  std::optional<MachiningDefinition> contour_data{};  ///< cycle 20
+};
 
 /// The moves of a machining cycle: in the working plane, and at heights along the tool axis, in mm
 /// of the input system. Each checks the run's budget first; a move to the current position is
@@ -107,5 +135,40 @@ NcResult<void> check_values(const MachiningDefinition& definition);
 
 /// The cycle that M99 runs at the position of the tool. @errors those of check_values(), 1108.
 NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definition);
+
+// machining_arguments.cpp
+class Channel;
+
+/// The value of a cycle parameter in mm, mm/min and degrees; MAX is infinity, AUTO the feed of TOOL
+/// CALL, a text if the parameter accepts one. @errors decision 3.
+NcResult<probing::ArgumentValue> cycle_argument(Channel& channel,
+                                                const klartext::CycleParameter& written,
+                                                const probing::CycleParameter& parameter);
+
+/// The values of a machining cycle in Q parameters. @errors 1004, 1011 a value out of its range.
+NcResult<MachiningDefinition> machining_arguments(Channel& channel, const klartext::Cycle& cycle,
+                                                  const BoundCycle& bound);
+
+/// A word of a cycle in sub-lines.
+struct PartWord {
+  int part;
+  klartext::Word word;
+};
+/// All words of a cycle in sub-lines, from block `first` to `last`.
+std::vector<PartWord> words_of_parts(const Channel& channel, std::uint32_t first,
+                                     std::uint32_t last);
+
+/// The values of an old cycle in sub-lines, from block `first` to `last`.
+NcResult<MachiningDefinition> machining_arguments(Channel& channel, const MachiningCycle& cycle,
+                                                  std::uint32_t first, std::uint32_t last);
+
+/// The words of a touch-probe cycle in sub-lines (0, 1, 3, 4) as its arguments.
+NcResult<probing::Arguments> dotted_arguments(Channel& channel,
+                                              const probing::TouchProbeCycle& cycle,
+                                              std::uint32_t first, std::uint32_t last);
+
+/// The labels of cycle 14.
+NcResult<std::vector<klartext::Label>> contour_labels(Channel& channel, std::uint32_t first,
+                                                      std::uint32_t last);
 
 }  // namespace fitgauge::interpreter

@@ -1,6 +1,3 @@
-#include "nc/run/machining_arguments.hpp"
-
-#include "nc/program/cycles.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/values.hpp"
 

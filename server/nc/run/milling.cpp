@@ -1,4 +1,3 @@
-#include "nc/machine/tolerance.hpp"
 #include "nc/run/machining.hpp"
 
 /// Pockets, slots, bores and threads: the finished contour of the centre of the tool at each depth.

@@ -2,7 +2,6 @@
 
 #include "nc/klartext/parser_words.hpp"
 #include "nc/program/diagnose.hpp"
-#include "nc/program/linked_program.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
 #include "nc/run/values.hpp"

@@ -1,9 +1,7 @@
-#include "nc/run/origins.hpp"
+#include "nc/run/run_log.hpp"
 
-#include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/linked_program.hpp"
-#include "nc/program/parameter.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

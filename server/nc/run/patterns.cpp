@@ -1,7 +1,4 @@
-#include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/machining.hpp"
-#include "nc/run/plane_geometry.hpp"
 #include "nc/run/statements.hpp"
 #include "nc/run/values.hpp"
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "nc/machine/axis.hpp"
-#include "nc/machine/geometry.hpp"
 
 /// Lines and arcs of the working plane, in mm and degrees; DR+ and positive angles turn
 /// counter-clockwise.

@@ -1,8 +1,5 @@
 #include "nc/klartext/parser_words.hpp"
-#include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/motion_words.hpp"
-#include "nc/run/tool_orientation.hpp"
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {

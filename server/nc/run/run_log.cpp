@@ -1,10 +1,9 @@
 #include "nc/run/run_log.hpp"
 
-#include "base/text.hpp"
 #include "nc/klartext/lexer.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/linked_program.hpp"
-#include "nc/run/origins.hpp"
+#include "nc/run/run_files.hpp"
 
 namespace fitgauge::interpreter {
 
@@ -126,6 +125,96 @@ void RunLog::take(RunResult& result) {
     const probing::MeasuringRecord& record = measurement.record;
     if (record.has_status) result.verdict = record.verdict;
   }
+}
+
+NcResult<std::int64_t> RunBudget::refuel(std::int64_t left, std::int64_t needed) {
+  give_back(left);
+  TRY(check());
+  const auto remaining = static_cast<std::int64_t>(limits_.blocks - granted_);
+  if (needed > remaining) {
+    return limit_error("the run has executed its limit of {} blocks", limits_.blocks);
+  }
+  const std::int64_t portion = std::min(remaining, std::max(needed, kPortion));
+  granted_ += static_cast<std::uint64_t>(portion);
+  return portion;
+}
+
+std::optional<NcError> RunBudget::refusal() const {
+  switch (allowance_.found()) {
+    case Allowance::Spent::Nothing: break;
+    case Allowance::Spent::Stop: return NcError{FaultKind::Cancelled, 0, "the run was cancelled"};
+    case Allowance::Spent::Time:
+      return limit_error("the run has taken its limit of {} seconds", limits_.time.count());
+    case Allowance::Spent::Memory:
+      return limit_error("the run has taken more than its {} bytes of memory",
+                         limits_.memory_bytes);
+  }
+  return std::nullopt;
+}
+
+std::optional<ControlFile> RunFiles::find(const ControlPath& path) const {
+  const auto it = written_.find(path.key());
+  if (it == written_.end()) return disk_.find(path);
+  const Written& file = it->second;
+  return ControlFile{file.path, file.bytes, file.revision_text(), FileSource::Run};
+}
+
+std::optional<std::string> RunFiles::revision(const ControlPath& path) const {
+  const auto it = written_.find(path.key());
+  return it == written_.end() ? disk_.revision(path) : it->second.revision_text();
+}
+
+bool RunFiles::has_directory(std::string_view directory) const {
+  const std::string prefix = ascii_lower(directory);
+  const auto it = written_.lower_bound(prefix);
+  return (it != written_.end() && it->first.starts_with(prefix)) || disk_.has_directory(directory);
+}
+
+NcResult<void> RunFiles::reserve(const ControlPath& path) {
+  const std::string key = path.key();
+  if (reserved_.contains(key)) return {};
+  if (reserved_.size() >= most_files_) {
+    return limit_error("the run has written more than {} files", most_files_);
+  }
+  reserved_.insert(key);
+  return {};
+}
+
+NcResult<void> RunFiles::write(const ControlPath& path, std::string bytes) {
+  TRY(budget_.charge(bytes.size()));
+  TRY(reserve(path));
+  Written& file = written_.try_emplace(path.key(), Written{path, {}}).first->second;
+  file.bytes = std::make_shared<std::string>(std::move(bytes));
+  ++file.revision;
+  return {};
+}
+
+NcResult<void> RunFiles::append(const ControlPath& path, std::string_view bytes) {
+  const auto known = written_.find(path.key());
+  if (known == written_.end()) {
+    const auto stored = disk_.find(path);
+    std::string all = stored ? *stored->bytes : std::string();
+    return write(path, std::move(all += bytes));
+  }
+  TRY(budget_.charge(bytes.size()));
+  Written& file = known->second;
+  if (file.bytes.use_count() > 1) file.bytes = std::make_shared<std::string>(*file.bytes);
+  *file.bytes += bytes;
+  ++file.revision;
+  return {};
+}
+
+std::vector<WrittenFile> RunFiles::copies() const {
+  std::vector<WrittenFile> files;
+  for (const auto& [key, file] : written_) files.push_back({file.path, *file.bytes});
+  return files;
+}
+
+std::vector<WrittenFile> RunFiles::take() {
+  std::vector<WrittenFile> files;
+  for (auto& [key, file] : written_) files.push_back({file.path, std::move(*file.bytes)});
+  written_.clear();
+  return files;
 }
 
 }  // namespace fitgauge::interpreter

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "nc/klartext/diagnostic.hpp"
-#include "nc/machine/tables.hpp"
+#include "nc/machine/machine_state.hpp"
 #include "nc/probing/measuring_record.hpp"
 #include "nc/program/control_disk.hpp"
 #include "nc/program/parameter.hpp"

@@ -1,6 +1,3 @@
-#include "nc/run/sl_contour.hpp"
-
-#include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
 

@@ -1,4 +1,3 @@
-#include "base/text.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/values.hpp"
 #include "tables/tabfile/characters.hpp"

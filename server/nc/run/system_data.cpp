@@ -1,6 +1,5 @@
 #include "nc/program/system_addresses.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/tool_values.hpp"
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,9 +1,6 @@
 #include "nc/run/table_access.hpp"
 
-#include "base/text.hpp"
-#include "nc/program/cycles.hpp"
-#include "nc/run/tool_values.hpp"
-#include "tables/tabfile/tab_table.hpp"
+#include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

@@ -1,13 +1,7 @@
 #pragma once
 
-#include "base/allowance.hpp"
-#include "nc/klartext/expression.hpp"
-#include "nc/machine/axis.hpp"
-#include "nc/program/control_disk.hpp"
-#include "nc/run/nc_error.hpp"
 #include "nc/run/q_parameters.hpp"
 #include "nc/run/run_files.hpp"
-#include "nc/run/run_result.hpp"
 #include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::interpreter {

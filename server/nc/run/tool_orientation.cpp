@@ -1,6 +1,3 @@
-#include "nc/run/tool_orientation.hpp"
-
-#include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/values.hpp"
 

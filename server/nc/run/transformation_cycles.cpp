@@ -1,6 +1,5 @@
-#include "nc/klartext/word_names.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/frame_commands.hpp"
+#include "nc/run/statements.hpp"
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,18 +1,15 @@
 #include "nc/run/values.hpp"
 
-#include "nc/program/arithmetic.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/tool_values.hpp"
 
 namespace fitgauge::interpreter {
+namespace {
 
 using klartext::Expr;
 using klartext::NodeIndex;
 using klartext::Operator;
 using klartext::QRef;
 using klartext::Text;
-
-namespace {
 
 bool is_string(const Channel& channel, const Expr& expr) {
   const auto* node = std::get_if<NodeIndex>(&expr);
@@ -28,6 +25,65 @@ NcResult<double> arithmetic(Channel& channel, NodeIndex index) {
   const double result = compute(op, values[0], values[1]);
   if (!std::isfinite(result)) return nc_error(failure(op, values[0], values[1]));
   return result;
+}
+
+using machine::Tool;
+
+/// A column that is a plain number.
+struct Column {
+  std::int64_t nr;
+  std::string_view name;
+  double Tool::*value;
+};
+
+constexpr Column kColumns[] = {
+    {1, "L", &Tool::l},
+    {2, "R", &Tool::r},
+    {3, "R2", &Tool::r2},
+    {4, "DL", &Tool::dl},
+    {5, "DR", &Tool::dr},
+    {6, "DR2", &Tool::dr2},
+    {9, "TIME1", &Tool::time1},
+    {10, "TIME2", &Tool::time2},
+    {11, "CUR_TIME", &Tool::current_time},
+    {13, "LCUTS", &Tool::cutting_length},
+    {14, "ANGLE", &Tool::plunge_angle},
+    {16, "LTOL", &Tool::l_tolerance},
+    {17, "RTOL", &Tool::r_tolerance},
+    {19, "R-OFFS", &Tool::r_offset},
+    {20, "L-OFFS", &Tool::l_offset},
+    {21, "LBREAK", &Tool::l_breakage},
+    {22, "RBREAK", &Tool::r_breakage},
+    {28, "NMAX", &Tool::max_rpm},
+    {32, "T-ANGLE", &Tool::point_angle},
+    {33, "PITCH", &Tool::pitch},
+};
+
+/// A column that is a whole number from 0.
+struct WholeColumn {
+  std::int64_t nr;
+  std::string_view name;
+  int Tool::*value;
+  int most;
+};
+
+constexpr WholeColumn kWholeColumns[] = {
+    {8, "RT", &Tool::replacement, 32'767},
+    {15, "CUT", &Tool::teeth, 1000},
+    {36, "TYP", &Tool::type, 999},
+};
+
+template <class Columns>
+auto column(const Columns& columns, std::int64_t nr) {
+  const auto* it = std::ranges::find_if(columns, [nr](const auto& each) { return each.nr == nr; });
+  return it == std::end(columns) ? nullptr : it;
+}
+
+template <class Columns>
+std::int64_t number_of(const Columns& columns, std::string_view name) {
+  const auto* it = std::ranges::find_if(
+      columns, [&](const auto& entry) { return ascii_iequals(entry.name, name); });
+  return it == std::end(columns) ? 0 : it->nr;
 }
 
 }  // namespace
@@ -117,6 +173,74 @@ NcResult<bool> condition(Channel& channel, NodeIndex index) {
     case Operator::NotEqual: return !are_equal(a, b);
     case Operator::Greater: return a > b;
     default: return a < b;
+  }
+}
+
+std::optional<double> tool_value(const Tool& tool, std::int64_t nr) {
+  if (const Column* plain = column(kColumns, nr)) return tool.*plain->value;
+  if (const WholeColumn* whole = column(kWholeColumns, nr)) return tool.*whole->value;
+  switch (nr) {
+    case 7: return tool.locked ? 1 : 0;
+    case 18: return tool.clockwise ? 0 : 1;
+    default: return std::nullopt;
+  }
+}
+
+ToolWrite set_tool_value(Tool& tool, std::int64_t nr, double value) {
+  if (const Column* plain = column(kColumns, nr)) {
+    tool.*plain->value = value;
+    return ToolWrite::Done;
+  }
+  if (const WholeColumn* whole = column(kWholeColumns, nr)) {
+    if (!(value >= 0 && value <= whole->most) || value != std::floor(value)) {
+      return ToolWrite::OutOfRange;
+    }
+    tool.*whole->value = static_cast<int>(value);
+    return ToolWrite::Done;
+  }
+  switch (nr) {
+    case 7: tool.locked = value != 0; return ToolWrite::Done;
+    case 18: tool.clockwise = value == 0; return ToolWrite::Done;
+    default: return ToolWrite::Unknown;
+  }
+}
+
+std::int64_t tool_column(std::string_view name) {
+  const std::int64_t plain = number_of(kColumns, name);
+  return plain != 0 ? plain : number_of(kWholeColumns, name);
+}
+
+NcResult<void> note_lathe_value(Channel& channel, const Tool& tool, std::int64_t nr) {
+  const auto* known = column(kColumns, nr);
+  const bool is_length =
+      known != nullptr && (known->value == &Tool::l || known->value == &Tool::r ||
+                           known->value == &Tool::dl || known->value == &Tool::dr);
+  if (!tool.lathe || !is_length) return {};
+  return channel.note(
+      "tool {} is a lathe tool: {} has no effect, since ZL, XL, DZL and DXL are its lengths",
+      tool.number, known->name);
+}
+
+bool is_tool_length(std::int64_t nr) {
+  return nr < 8 || nr == 13 || (nr > 15 && nr < 28) || nr == 33;
+}
+
+void update_preassigned(Channel& channel) {
+  const machine::MachineState& state = channel.machine().state();
+  QParameters& q = channel.parameters;
+  const bool is_inch = channel.calls.main_program().is_inch();
+  const double unit = is_inch ? 25.4 : 1.0;
+  q.set_q(108, state.tool_radius() / unit);
+  q.set_q(109, state.tool.axis ? static_cast<double>(machine::index(*state.tool.axis)) : -1);
+  q.set_q(110, static_cast<int>(state.modes.spindle));
+  q.set_q(111, state.modes.coolant ? 1 : 0);
+  q.set_q(113, is_inch ? 1 : 0);
+  q.set_q(114, state.tool_length() / unit);
+}
+
+void set_plane_angles(Channel& channel, const machine::Vec3& rotary) {
+  for (std::uint16_t i = 0; i < 3; ++i) {
+    channel.parameters.set_q(static_cast<std::uint16_t>(120 + i), rotary[i]);
   }
 }
 

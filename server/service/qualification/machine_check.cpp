@@ -1,6 +1,6 @@
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/probing/touch/fits.hpp"
-#include "nc/program/linker.hpp"
+#include "nc/program/program_cache.hpp"
 #include "nc/run/interpreter.hpp"
 #include "service/qualification/qualification.hpp"
 #include "service/runs/control_files.hpp"

@@ -1,6 +1,6 @@
 #include "service/runs/control_files.hpp"
 
-#include "nc/machine/stl_file.hpp"
+#include "nc/machine/triangle_tree.hpp"
 #include "service/tables/table_catalog.hpp"
 #include "tables/tabfile/iso286_projection.hpp"
 

@@ -1,7 +1,7 @@
 #include "service/runs/run_service.hpp"
 
 #include "db/store/database.hpp"
-#include "nc/program/linker.hpp"
+#include "nc/program/program_cache.hpp"
 #include "service/measurements/mapping.hpp"
 
 namespace fitgauge::app {

@@ -6,7 +6,7 @@
 
 #include "nc/machine/machine_setup.hpp"
 #include "nc/machine/simulated_machine.hpp"
-#include "nc/program/linker.hpp"
+#include "nc/program/program_cache.hpp"
 #include "nc/run/interpreter.hpp"
 
 using namespace fitgauge;

@@ -6,7 +6,7 @@
 #include <ctime>
 
 #include "nc/machine/simulated_machine.hpp"
-#include "nc/program/linker.hpp"
+#include "nc/program/program_cache.hpp"
 #include "nc/run/interpreter.hpp"
 
 using namespace fitgauge;

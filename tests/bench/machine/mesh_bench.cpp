@@ -7,7 +7,7 @@
 #include <ctime>
 
 #include "nc/machine/random.hpp"
-#include "nc/machine/stl_file.hpp"
+#include "nc/machine/triangle_tree.hpp"
 #include "nc/machine/workpiece.hpp"
 #include "unit/nc/machine/meshes.hpp"
 

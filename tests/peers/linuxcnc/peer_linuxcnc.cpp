@@ -6,7 +6,7 @@
 
 #include "linuxcnc_axes.hpp"
 #include "nc/machine/control.hpp"
-#include "nc/program/linker.hpp"
+#include "nc/program/program_cache.hpp"
 #include "nc/run/interpreter.hpp"
 #include "tables/tabfile/iso286_projection.hpp"
 #include "tables/tabfile/tab_table.hpp"

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "api/runs/run_codec.hpp"
-#include "nc/program/linker.hpp"
+#include "nc/program/program_cache.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

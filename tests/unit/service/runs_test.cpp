@@ -1,4 +1,4 @@
-#include "nc/program/linker.hpp"
+#include "nc/program/program_cache.hpp"
 #include "service/runs/run_executor.hpp"
 #include "service_fixture.hpp"
 

@@ -1,6 +1,6 @@
 #include "base/length.hpp"
 #include "log_templates.hpp"
-#include "nc/machine/tables.hpp"
+#include "nc/machine/machine_state.hpp"
 #include "nc/machine/tolerance.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/log/measuring_log.hpp"

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "nc/machine/random.hpp"
-#include "nc/machine/stl_file.hpp"
+#include "nc/machine/triangle_tree.hpp"
 #include "nc/machine/workpiece.hpp"
 #include "support/deep.hpp"
 #include "unit/nc/machine/meshes.hpp"

@@ -6,7 +6,7 @@
 
 #include "base/text.hpp"
 #include "nc/probing/cycles.hpp"
-#include "nc/program/machining_cycles.hpp"
+#include "nc/program/cycles.hpp"
 #include "run_fixture.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,4 +1,4 @@
-#include "nc/run/kinematics_records.hpp"
+#include "nc/run/run_files.hpp"
 
 #include <doctest/doctest.h>
 

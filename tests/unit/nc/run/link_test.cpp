@@ -1,4 +1,4 @@
-#include "nc/program/linker.hpp"
+#include "nc/program/program_cache.hpp"
 
 #include "run_fixture.hpp"
 

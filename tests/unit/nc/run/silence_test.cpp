@@ -1,5 +1,5 @@
+#include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
-#include "nc/program/machining_cycles.hpp"
 #include "workshop.hpp"
 
 /// Each word of a program is executed, leaves a note, or is refused.
