@@ -6,7 +6,6 @@
 #include "cli/folder_disk.hpp"
 #include "cli/local_files.hpp"
 #include "cli/nc_commands.hpp"
-#include "nc/program/check.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/program_cache.hpp"
 #include "service/runs/control_files.hpp"

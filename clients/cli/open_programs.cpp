@@ -9,7 +9,6 @@
 #include "http/engine/request_head.hpp"
 #include "nc/iso/parser.hpp"
 #include "nc/klartext/source_text.hpp"
-#include "nc/program/check.hpp"
 #include "nc/program/parameter.hpp"
 #include "nc/program/program_cache.hpp"
 

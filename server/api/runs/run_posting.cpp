@@ -6,7 +6,7 @@
 #include "api/wire/problem.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/json/json_value.hpp"
-#include "nc/program/check.hpp"
+#include "nc/program/program_cache.hpp"
 #include "service/jobs.hpp"
 
 namespace fitgauge::api {

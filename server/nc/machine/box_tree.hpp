@@ -53,52 +53,16 @@ class BoxTree {
   /// reduce, the nearer child first.
   template <class Visit>
   void near(const Vec3& at, const double& squared, const Visit& visit) const {
-    if (is_empty()) return;
-    Stack<std::uint32_t> open;
-    open.push(0);
-    while (!open.is_empty()) {
-      const std::uint32_t index = open.pop();
-      const Node& node = nodes_[index];
-      if (!(node.box.squared_distance(at) < squared)) continue;
-      if (node.second == 0) {
-        visit(node.begin, node.end);
-        continue;
-      }
-      const bool in_order = nodes_[index + 1].box.squared_distance(at) <=
-                            nodes_[node.second].box.squared_distance(at);
-      open.push(in_order ? node.second : index + 1);
-      open.push(in_order ? index + 1 : node.second);
-    }
+    nearest_first([&at](const Box& box) { return std::optional(box.squared_distance(at)); },
+                  squared,
+                  [&visit](std::uint32_t begin, std::uint32_t end, double) { visit(begin, end); });
   }
 
   /// Calls visit(begin, end, way) for the leaves that the ball may touch within `longest`, mostly
   /// nearest boxes first. `visit` may reduce `longest`.
   template <class Visit>
   void along(const BallPath& ball, const double& longest, const Visit& visit) const {
-    if (is_empty()) return;
-    struct Open {
-      std::uint32_t index;
-      double way;
-    };
-    Stack<Open> open;
-    const auto push = [&](std::uint32_t index, const std::optional<double>& way) {
-      if (way && *way <= longest) open.push({index, *way});
-    };
-    push(0, nodes_.front().box.way_to(ball));
-    while (!open.is_empty()) {
-      const Open next = open.pop();
-      if (next.way > longest) continue;
-      const Node& node = nodes_[next.index];
-      if (node.second == 0) {
-        visit(node.begin, node.end, next.way);
-        continue;
-      }
-      const auto first = nodes_[next.index + 1].box.way_to(ball);
-      const auto second = nodes_[node.second].box.way_to(ball);
-      const bool in_order = !second || (first && *first <= *second);
-      push(in_order ? node.second : next.index + 1, in_order ? second : first);
-      push(in_order ? next.index + 1 : node.second, in_order ? first : second);
-    }
+    nearest_first([&ball](const Box& box) { return box.way_to(ball); }, longest, visit);
   }
 
   /// Calls visit(begin, end) for the leaves with `holds(box)`, until one returns true.
@@ -144,6 +108,34 @@ class BoxTree {
     std::size_t size = 0;
   };
 
+  /// Calls visit(begin, end, way) for the leaves to whose boxes `way_to` leads within `longest`.
+  template <class WayTo, class Visit>
+  void nearest_first(const WayTo& way_to, const double& longest, const Visit& visit) const {
+    if (is_empty()) return;
+    struct Open {
+      std::uint32_t index;
+      double way;
+    };
+    Stack<Open> open;
+    const auto push = [&](std::uint32_t index, const std::optional<double>& way) {
+      if (way && *way <= longest) open.push({index, *way});
+    };
+    push(0, way_to(nodes_.front().box));
+    while (!open.is_empty()) {
+      const Open next = open.pop();
+      if (next.way > longest) continue;
+      const Node& node = nodes_[next.index];
+      if (node.second == 0) {
+        visit(node.begin, node.end, next.way);
+        continue;
+      }
+      const auto first = way_to(nodes_[next.index + 1].box);
+      const auto second = way_to(nodes_[node.second].box);
+      const bool in_order = !second || (first && *first <= *second);
+      push(in_order ? node.second : next.index + 1, in_order ? second : first);
+      push(in_order ? next.index + 1 : node.second, in_order ? first : second);
+    }
+  }
   void build(const std::vector<Box>& boxes, std::vector<Item>& items, std::uint32_t begin,
              std::uint32_t end);
 

@@ -1,4 +1,4 @@
-#include "nc/machine/delaunay.hpp"
+#include "nc/machine/triangle_tree.hpp"
 
 namespace fitgauge::machine {
 namespace {

@@ -1,7 +1,7 @@
 #include "nc/machine/machine_setup.hpp"
 
-#include "nc/machine/delaunay.hpp"
 #include "nc/machine/tolerance.hpp"
+#include "nc/machine/triangle_tree.hpp"
 
 namespace fitgauge::machine {
 namespace {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "nc/machine/frames.hpp"
-#include "nc/machine/kinematics.hpp"
 
 namespace fitgauge::machine {
 

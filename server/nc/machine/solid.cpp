@@ -1,6 +1,5 @@
 #include "nc/machine/solid.hpp"
 
-#include "nc/machine/delaunay.hpp"
 #include "nc/machine/tolerance.hpp"
 #include "nc/machine/triangle_tree.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "base/clock.hpp"
 #include "nc/machine/axis.hpp"
-#include "nc/machine/kinematics.hpp"
+#include "nc/machine/frames.hpp"
 #include "nc/machine/machine.hpp"
 #include "nc/probing/cycle_descriptor.hpp"
 #include "nc/probing/cycle_fault.hpp"

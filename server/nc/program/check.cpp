@@ -1,4 +1,4 @@
-#include "nc/program/check.hpp"
+#include "nc/program/program_cache.hpp"
 
 #include "nc/program/diagnose.hpp"
 #include "nc/program/link_check.hpp"

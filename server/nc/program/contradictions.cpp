@@ -4,7 +4,6 @@
 #include "nc/program/cycles.hpp"
 #include "nc/program/followed_values.hpp"
 #include "nc/program/link_check.hpp"
-#include "nc/program/parameter.hpp"
 #include "nc/program/word_senses.hpp"
 
 namespace fitgauge::interpreter {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/number.hpp"
-#include "nc/program/arithmetic.hpp"
 #include "nc/program/diagnose.hpp"
+#include "nc/program/parameter.hpp"
 
 namespace fitgauge::interpreter {
 

@@ -1,8 +1,8 @@
-#include "nc/program/arithmetic.hpp"
-#include "nc/program/check.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/link_check.hpp"
 #include "nc/program/lowering.hpp"
+#include "nc/program/parameter.hpp"
+#include "nc/program/program_cache.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

@@ -1,6 +1,6 @@
 #include "nc/program/lowering.hpp"
 
-#include "nc/program/arithmetic.hpp"
+#include "nc/program/parameter.hpp"
 
 namespace fitgauge::interpreter {
 

@@ -2,8 +2,7 @@
 
 #include <unordered_map>
 
-#include "nc/klartext/syntax.hpp"
-#include "nc/program/code.hpp"
+#include "nc/program/linked_program.hpp"
 
 namespace fitgauge::interpreter {
 

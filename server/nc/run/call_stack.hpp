@@ -1,8 +1,7 @@
 #pragma once
 
 #include "nc/program/linked_program.hpp"
-#include "nc/run/run_budget.hpp"
-#include "nc/run/run_observer.hpp"
+#include "nc/run/run_log.hpp"
 
 namespace fitgauge::interpreter {
 

@@ -28,6 +28,7 @@ class Channel {
   double length_unit() const { return linked().is_inch() ? 25.4 : 1.0; }
 
   machine::Machine& machine() const { return environment.machine; }
+  const machine::MachineState& state() const { return environment.machine.state(); }
   Timestamp now() const { return environment.clock.now(); }
 
   /// STOP, M0, M1: reported; the run continues, or ends by `on_stop`.

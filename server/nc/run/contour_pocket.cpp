@@ -191,7 +191,7 @@ class ContourCycle {
   ContourCycle(Channel& channel, Machining& cycle)
       : channel_(channel),
         cycle_(cycle),
-        motion_(cycle.motion),
+        motion_(cycle),
         data_(*channel.active_cycle.contour_data),
         number_(cycle.definition.cycle->descriptor.number),
         depths_(data_, cycle.value(10), number_ < 23) {}

@@ -1,9 +1,8 @@
 #pragma once
 
 #include "nc/machine/machine.hpp"
-#include "nc/machine/tolerance.hpp"
 #include "nc/run/plane_geometry.hpp"
-#include "nc/run/run_budget.hpp"
+#include "nc/run/run_log.hpp"
 
 namespace fitgauge::interpreter {
 

@@ -30,7 +30,7 @@ class Drilling {
  public:
   explicit Drilling(Machining& cycle)
       : cycle_(cycle),
-        motion_(cycle.motion),
+        motion_(cycle),
         heights_(cycle.heights),
         number_(cycle.definition.cycle->descriptor.number),
         begin_(heights_.surface - cycle.value(379)) {}
@@ -154,7 +154,7 @@ class Drilling {
 /// The feed of a thread: its pitch at the speed of the spindle.
 Feed thread_feed(const Machining& cycle, double factor = 1) {
   if (cycle.value(239) == 0) return cycle.feed(206);
-  const double rpm = cycle.motion.state().modes.spindle_rpm;
+  const double rpm = cycle.state().modes.spindle_rpm;
   return Feed::at(std::abs(cycle.value(239)) * rpm * factor);
 }
 
@@ -177,59 +177,56 @@ NcResult<void> drill(Machining& cycle) { return Drilling(cycle).run(); }
 
 NcResult<void> tap(Machining& cycle) {
   const Heights& heights = cycle.heights;
-  ToolMotion& motion = cycle.motion;
   TRY(cycle.start());
   const double chip = cycle.value(257);
   for (double at = heights.surface; chip > 0 && std::abs(heights.bottom - at) > chip;) {
     const double next = at - chip;
     if (next == at) return nc_error(1011, "the depth for chip breaking Q257 is too small");
     at = next;
-    TRY(motion.to_height(at, thread_feed(cycle)));
+    TRY(cycle.to_height(at, thread_feed(cycle)));
     // Q256 = 0: out of the hole.
     const double back = cycle.value(256) > 0 ? at + cycle.value(256) : heights.clearance;
-    TRY(motion.to_height(back, thread_feed(cycle)));
+    TRY(cycle.to_height(back, thread_feed(cycle)));
   }
-  TRY(motion.to_height(heights.bottom, thread_feed(cycle)));
-  TRY(motion.dwell(cycle.value(211)));
+  TRY(cycle.to_height(heights.bottom, thread_feed(cycle)));
+  TRY(cycle.dwell(cycle.value(211)));
   const double faster = cycle.definition.gives(403) ? cycle.value(403) : 1;
-  TRY(motion.to_height(heights.clearance, thread_feed(cycle, faster)));
+  TRY(cycle.to_height(heights.clearance, thread_feed(cycle, faster)));
   return cycle.leave();
 }
 
 NcResult<void> bore(Machining& cycle) {
   constexpr double kWithdrawal = 0.2;  // mm, the control's own
   const Heights& heights = cycle.heights;
-  ToolMotion& motion = cycle.motion;
   TRY(cycle.start());
-  TRY(motion.to_height(heights.bottom, cycle.feed(206)));
-  TRY(motion.dwell(cycle.value(211)));
-  const Vec2 centre = motion.point();
+  TRY(cycle.to_height(heights.bottom, cycle.feed(206)));
+  TRY(cycle.dwell(cycle.value(211)));
+  const Vec2 centre = cycle.point();
   const Vec2 away = withdrawal(cycle, kWithdrawal);
   const bool withdraws = norm(away) > 0;
-  if (withdraws) TRY(motion.to_point(centre + away, cycle.feed(206)));
-  TRY(motion.to_height(heights.clearance, cycle.retraction()));
+  if (withdraws) TRY(cycle.to_point(centre + away, cycle.feed(206)));
+  TRY(cycle.to_height(heights.clearance, cycle.retraction()));
   if (auto done = cycle.leave(); !done || !withdraws) return done;
-  return motion.to_point(centre, Feed::rapid());
+  return cycle.to_point(centre, Feed::rapid());
 }
 
 NcResult<void> bore_back(Machining& cycle) {
   const Heights& heights = cycle.heights;
-  ToolMotion& motion = cycle.motion;
   const double lower_edge = heights.surface - cycle.value(250) - cycle.value(252);
   const double below = lower_edge - cycle.value(200);
-  const Vec2 centre = motion.point();
+  const Vec2 centre = cycle.point();
   const Vec2 beside = centre + withdrawal(cycle, cycle.value(251));
   // The cutting edge enters the hole off its centre and returns on the other side.
   const auto through = [&](double height) -> NcResult<void> {
-    TRY(motion.to_point(beside, Feed::rapid()));
-    TRY(motion.to_height(height, cycle.feed(253)));
-    return motion.to_point(centre, Feed::rapid());
+    TRY(cycle.to_point(beside, Feed::rapid()));
+    TRY(cycle.to_height(height, cycle.feed(253)));
+    return cycle.to_point(centre, Feed::rapid());
   };
-  TRY(motion.to_height(heights.clearance, Feed::rapid()));
+  TRY(cycle.to_height(heights.clearance, Feed::rapid()));
   TRY(through(below));
-  TRY(motion.to_height(lower_edge + cycle.value(249), cycle.feed(254)));
-  TRY(motion.dwell(cycle.value(255)));
-  TRY(motion.to_height(below, cycle.feed(253)));
+  TRY(cycle.to_height(lower_edge + cycle.value(249), cycle.feed(254)));
+  TRY(cycle.dwell(cycle.value(255)));
+  TRY(cycle.to_height(below, cycle.feed(253)));
   TRY(through(heights.clearance));
   return cycle.leave();
 }

@@ -1,7 +1,5 @@
 #include "nc/program/diagnose.hpp"
-#include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
-#include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -113,7 +111,7 @@ class ChannelCycleHost final : public probing::CycleHost {
 
 /// A travel that ends before the nominal contact finds only nearer material.
 NcResult<void> note_short_travel(Channel& channel, const probing::Arguments& arguments) {
-  const auto probe = channel.machine().state().probe_system();
+  const auto probe = channel.state().probe_system();
   if (!probe || arguments.descriptor().find(probing::q(320)) == nullptr) return {};
   const double clearance = probe->data.set_up + arguments.number(320);
   if (probe->data.distance >= clearance) return {};
@@ -253,7 +251,7 @@ NcResult<Next> call_at_position(Channel& channel, const MotionWords& words) {
   const double surface = machining == nullptr ? 0 : machining->value(203);
   const bool is_shifted = machining != nullptr && !machining->cycle->descriptor.dotted;
   if (is_shifted) {
-    auto& height = target[channel.machine().state().tool_axis()];
+    auto& height = target[channel.state().tool_axis()];
     machining->values[203] = surface + height.value_or(0);
     height.reset();
     ToolMotion motion(channel.machine(), channel.budget);

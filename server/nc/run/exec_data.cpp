@@ -1,7 +1,5 @@
 #include "nc/probing/touch/fits.hpp"
-#include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
-#include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

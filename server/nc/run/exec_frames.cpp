@@ -1,7 +1,5 @@
 #include "nc/klartext/parser_words.hpp"
-#include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
-#include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -57,13 +55,13 @@ Matrix3 around(Letter axis, double angle) {
 }
 
 Matrix3 current_rotation(const Channel& channel) {
-  const auto& plane = channel.machine().state().frames.plane();
+  const auto& plane = channel.state().frames.plane();
   return plane ? Matrix3::spatial(plane->spatial_deg) : Matrix3{};
 }
 
 /// PLANE AXIAL: the plane across the tool with the rotary axes at these positions.
 NcResult<Matrix3> axial(const Channel& channel, const PlaneWords& words) {
-  const machine::MachineState& state = channel.machine().state();
+  const machine::MachineState& state = channel.state();
   Vec3 rotary = state.nose.rotary;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto it = words.find(static_cast<Letter>(i + 3));
@@ -179,13 +177,10 @@ NcResult<void> execute(Channel& channel, const klartext::Plane& plane) {
   return tilt(channel, rotation, moves);
 }
 
-/// MILL, in which a run always is; the parser refuses the others.
-NcResult<void> execute(Channel&, const klartext::FunctionMode&) { return {}; }
-
 NcResult<void> execute(Channel& channel, const klartext::FunctionTcpm& tcpm) {
   const std::string_view options = channel.program().text(tcpm.options);
   const auto says = [&](std::string_view words) { return options.find(words) != options.npos; };
-  const machine::MachineState& state = channel.machine().state();
+  const machine::MachineState& state = channel.state();
   const machine::Tool* tool = state.active_tool();
   if (says("CENTER") && tool != nullptr && tool->r2 + tool->dr2 + state.tool.dr2 != 0) {
     return nc_error(

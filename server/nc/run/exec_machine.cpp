@@ -1,6 +1,4 @@
-#include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
-#include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -12,7 +10,7 @@ using klartext::Letter;
 NcResult<int> tool_number(Channel& channel, const Expr& tool) {
   if (is_text(tool)) {
     const auto name = TRY(text(channel, tool));
-    const machine::Tool* found = channel.machine().state().tools.find(name);
+    const machine::Tool* found = channel.state().tools.find(name);
     if (found == nullptr) return nc_error(1092, "tool \"{}\"", name);
     return found->number;
   }
@@ -26,7 +24,7 @@ NcResult<int> tool_number(Channel& channel, const Expr& tool) {
 /// Applies the values that FN 27 wrote to tool.t since the last TOOL CALL.
 NcResult<void> read_written_tools(Channel& channel) {
   for (const auto& [number, nr, value] : channel.tables.take_tool_cells()) {
-    const machine::Tool* found = channel.machine().state().tools.find(number);
+    const machine::Tool* found = channel.state().tools.find(number);
     machine::Tool tool = found != nullptr ? *found : machine::Tool{};
     tool.number = number;
     if (set_tool_value(tool, nr, value) == ToolWrite::OutOfRange) {
@@ -47,7 +45,7 @@ using klartext::Motion;
 
 NcResult<void> note_entry(Channel& channel) {
   if (!std::exchange(channel.contour.has_entered_part, false)) return {};
-  const auto& state = channel.machine().state();
+  const auto& state = channel.state();
   return channel.note("tool {} enters the part {}", state.tool.number,
                       state.modes.turns()
                           ? "in rapid traverse: the simulation removes no material, so check "
@@ -56,7 +54,7 @@ NcResult<void> note_entry(Channel& channel) {
 }
 
 NcResult<void> note_lathe_tool(Channel& channel) {
-  const machine::Tool* tool = channel.machine().state().active_tool();
+  const machine::Tool* tool = channel.state().active_tool();
   if (tool == nullptr || !tool->lathe || tool->lathe->xl + tool->lathe->dxl == 0) return {};
   return channel.note(
       "tool {} is a lathe tool: positioning blocks move the spindle axis here, without XL",
@@ -76,7 +74,7 @@ NcResult<void> execute(Channel& channel, const klartext::ToolCall& call) {
     command.number = TRY(tool_number(channel, call.tool));
     channel.prepared_tool = 0;
   } else {
-    const machine::ActiveTool& active = channel.machine().state().tool;
+    const machine::ActiveTool& active = channel.state().tool;
     command.dl = active.dl;
     command.dr = active.dr;
     command.dr2 = active.dr2;
@@ -112,7 +110,7 @@ NcResult<void> execute(Channel& channel, const klartext::ToolDefinition& definit
     channel.prepared_tool = number;
     return {};
   }
-  const machine::Tool* found = channel.machine().state().tools.find(number);
+  const machine::Tool* found = channel.state().tools.find(number);
   machine::Tool tool = found != nullptr ? *found : machine::Tool{};
   tool.number = number;
   for (const klartext::Word& word : channel.program().view(definition.words)) {
@@ -156,7 +154,7 @@ NcResult<void> execute(Channel& channel, const klartext::Dwell& dwell) {
   const auto value = TRY(number(channel, dwell.value));
   double seconds = value;
   if (dwell.revolutions) {
-    const double rpm = channel.machine().state().modes.spindle_rpm;
+    const double rpm = channel.state().modes.spindle_rpm;
     if (rpm <= 0) return nc_error(1020, "FUNCTION DWELL REV needs a speed of the spindle");
     seconds = value * 60 / rpm;
   }

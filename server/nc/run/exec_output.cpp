@@ -1,7 +1,5 @@
 #include "nc/program/link_check.hpp"
-#include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
-#include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

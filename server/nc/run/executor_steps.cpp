@@ -1,7 +1,6 @@
 #include "nc/run/executor_steps.hpp"
 
 #include "nc/run/statements.hpp"
-#include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
 

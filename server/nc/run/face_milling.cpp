@@ -38,17 +38,15 @@ Lanes lanes_of(const Machining& cycle, double radius) {
 }  // namespace
 
 NcResult<void> mill_face(Machining& cycle) {
-  ToolMotion& motion = cycle.motion;
   const Heights& heights = cycle.heights;
-  const double radius = motion.tool_radius();
+  const double radius = cycle.tool_radius();
   if (radius <= 0) return nc_error(1002, "a face is milled with a tool that has a radius");
   if (heights.bottom == heights.surface) return {};  // the control does not run it
   const Lanes lanes = lanes_of(cycle, radius);
   const bool line_by_line = cycle.value(389) == 2;
   const auto to_next = cycle.feed(cycle.value(389) == 1 ? 207 : 253);
-  if (motion.height() < heights.second)
-    TRY(motion.to_height(heights.second, machine::Feed::rapid()));
-  TRY(motion.to_point(lanes.first, machine::Feed::rapid()));
+  if (cycle.height() < heights.second) TRY(cycle.to_height(heights.second, machine::Feed::rapid()));
+  TRY(cycle.to_point(lanes.first, machine::Feed::rapid()));
   const double rough = std::min(heights.surface, heights.bottom + cycle.value(369));
   const double least = cycle.value(202) > 0 ? cycle.value(202) : heights.surface - rough;
   const double infeeds =
@@ -61,22 +59,22 @@ NcResult<void> mill_face(Machining& cycle) {
                              : heights.surface - (heights.surface - rough) * infeed / infeeds;
     const auto feed = cycle.feed(infeed == all ? 385 : 207);
     const bool backwards = std::fmod(infeed, 2) == 0;
-    if (infeed == 1) TRY(motion.to_height(depth, cycle.feed(253)));
+    if (infeed == 1) TRY(cycle.to_height(depth, cycle.feed(253)));
     for (double k = 0; k < lanes.count; ++k) {
       const double lane = backwards ? lanes.count - 1 - k : k;
       const bool enters = infeed == 1 && k == 0;
       if (line_by_line && !enters) {
-        TRY(motion.to_height(depth + cycle.value(200), cycle.feed(253)));
-        TRY(motion.to_point(lanes.end(lane, false), cycle.feed(253)));
+        TRY(cycle.to_height(depth + cycle.value(200), cycle.feed(253)));
+        TRY(cycle.to_point(lanes.end(lane, false), cycle.feed(253)));
       } else if (!enters) {
-        TRY(motion.to_point(lanes.end(lane, !to_far), to_next));
+        TRY(cycle.to_point(lanes.end(lane, !to_far), to_next));
       }
-      TRY(motion.to_height(depth, cycle.feed(253)));
-      TRY(motion.to_point(lanes.end(lane, to_far), feed));
+      TRY(cycle.to_height(depth, cycle.feed(253)));
+      TRY(cycle.to_point(lanes.end(lane, to_far), feed));
       if (!line_by_line) to_far = !to_far;
     }
   }
-  return motion.to_height(heights.second, machine::Feed::rapid());
+  return cycle.to_height(heights.second, machine::Feed::rapid());
 }
 
 }  // namespace fitgauge::interpreter

@@ -1,6 +1,5 @@
 #include "nc/run/formatted_printer.hpp"
 
-#include "nc/run/channel.hpp"
 #include "nc/run/values.hpp"
 #include "tables/tabfile/characters.hpp"
 

@@ -1,6 +1,4 @@
-#include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
-#include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -12,7 +10,7 @@ using machine::Vec3;
 
 template <class Change>
 NcResult<void> change_frames(Channel& channel, const Change& change) {
-  Frames frames = channel.machine().state().frames;
+  Frames frames = channel.state().frames;
   change(frames);
   return channel.machine().set_frames(frames);
 }
@@ -57,7 +55,7 @@ bool is_on_side(const machine::MachineState& state, const PlaneMoves& moves, con
 /// requests.
 NcResult<std::optional<Vec3>> rotary_positions(Channel& channel, const Frames& frames,
                                                const PlaneMoves& moves) {
-  const machine::MachineState& state = channel.machine().state();
+  const machine::MachineState& state = channel.state();
   Frames plane;
   plane.set_preset(frames.preset());
   plane.set_plane(frames.plane());
@@ -162,7 +160,7 @@ NcResult<void> mirror(Channel& channel, const std::array<bool, 3>& axes) {
 }
 
 NcResult<void> rotate(Channel& channel, const Coordinate& angle) {
-  const Axis tool_axis = channel.machine().state().tool_axis();
+  const Axis tool_axis = channel.state().tool_axis();
   return change_frames(channel, [&](Frames& frames) {
     const double last = angle.incremental ? frames.rotation().angle_deg : 0;
     frames.set_rotation({last + angle.value, tool_axis});
@@ -179,7 +177,7 @@ NcResult<void> scale(Channel& channel, const machine::Scaling& scaling) {
 }
 
 NcResult<void> tilt(Channel& channel, const machine::Matrix3& rotation, const PlaneMoves& moves) {
-  Frames frames = channel.machine().state().frames;
+  Frames frames = channel.state().frames;
   machine::Position shift = untilted_shift(frames);
   frames.set_plane(machine::TiltedPlane{machine::spatial_angles(rotation), shift.linear});
   shift.linear = {};
@@ -189,7 +187,7 @@ NcResult<void> tilt(Channel& channel, const machine::Matrix3& rotation, const Pl
 }
 
 NcResult<void> reset_tilt(Channel& channel, const PlaneMoves& moves) {
-  Frames frames = channel.machine().state().frames;
+  Frames frames = channel.state().frames;
   const machine::Position shift = untilted_shift(frames);
   frames.set_plane(std::nullopt);
   frames.set_datum_shift(shift);

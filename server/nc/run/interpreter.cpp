@@ -1,6 +1,5 @@
 #include "nc/run/interpreter.hpp"
 
-#include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
 
 namespace fitgauge::interpreter {

@@ -2,8 +2,7 @@
 
 #include "nc/klartext/mask_file.hpp"
 #include "nc/program/program_cache.hpp"
-#include "nc/run/run_budget.hpp"
-#include "nc/run/run_observer.hpp"
+#include "nc/run/run_log.hpp"
 
 namespace fitgauge::interpreter {
 

@@ -1,8 +1,6 @@
 #include "nc/run/statements.hpp"
 
 #include "nc/probing/alignment/rotation.hpp"
-#include "nc/run/channel.hpp"
-#include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -11,7 +9,7 @@ using machine::SpindleState;
 
 /// Sets the modes of the machine that the block changes.
 NcResult<void> set_modes(Channel& channel, const machine::Modes& modes) {
-  if (modes == channel.machine().state().modes) return {};
+  if (modes == channel.state().modes) return {};
   TRY(channel.machine().set_modes(modes));
   update_preassigned(channel);
   return {};
@@ -44,7 +42,7 @@ NcResult<void> retract(Channel& channel, const MCall& call) {
   if (!call.to_limit && call.length.value_or(-1) < 0) {
     return nc_error(1011, "a retraction needs MB with a length, or MB MAX");
   }
-  const machine::MachineState& state = channel.machine().state();
+  const machine::MachineState& state = channel.state();
   const machine::Vec3 direction = state.tool_direction(machine::CoordinateSystem::Reference);
   const double length = call.to_limit ? room(state, direction) : call.length.value_or(0);
   const machine::Vec3 target = state.nose.linear + direction * length;
@@ -54,7 +52,7 @@ NcResult<void> retract(Channel& channel, const MCall& call) {
 }
 
 NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& calls) {
-  machine::Modes modes = channel.machine().state().modes;
+  machine::Modes modes = channel.state().modes;
   for (const MCall& call : calls) {
     switch (call.number) {
       case 13: modes.coolant = true; [[fallthrough]];
@@ -83,7 +81,7 @@ NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& cal
 }
 
 NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words) {
-  machine::Modes modes = channel.machine().state().modes;
+  machine::Modes modes = channel.state().modes;
   bool stops = false;
   bool ends = false;
   bool calls_cycle = channel.active_cycle.after_every_block && words.names_axes();

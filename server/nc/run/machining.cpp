@@ -46,13 +46,13 @@ NcResult<void> note_corner(Channel& channel, const MachiningDefinition& definiti
 NcResult<void> note_standing(Channel& channel, const MachiningCycle& cycle) {
   const int number = cycle.descriptor.number;
   const bool starts = cycle.shape == MachiningShape::Tapping || number == 241;
-  if (starts || channel.machine().state().modes.turns()) return {};
+  if (starts || channel.state().modes.turns()) return {};
   return channel.note(
       "cycle {} cuts with a standing spindle: give its speed S, and M3 or M4 before", number);
 }
 
 NcResult<void> note_probe(Channel& channel, const MachiningCycle& cycle) {
-  const machine::MachineState& state = channel.machine().state();
+  const machine::MachineState& state = channel.state();
   if (!state.probe_system()) return {};
   return channel.note("cycle {} machines with the touch probe, tool {}: call a cutter",
                       cycle.descriptor.number, state.tool.number);
@@ -111,7 +111,7 @@ machine::Feed feed_of(double rate) {
 }
 
 Machining::Machining(const ToolMotion& tool, const MachiningDefinition& defined)
-    : definition(defined), motion(tool), heights(heights_of(defined, tool)) {}
+    : ToolMotion(tool), definition(defined), heights(heights_of(defined, tool)) {}
 
 machine::Feed Machining::feed(int parameter) const { return feed_of(value(parameter)); }
 
@@ -127,12 +127,12 @@ NcResult<void> Machining::start() {
     return nc_error(1042, "Q201 is 0");
   }
   if (definition.cycle->descriptor.dotted) return {};  // the tool stands there
-  return motion.to_height(heights.clearance, machine::Feed::rapid());
+  return to_height(heights.clearance, machine::Feed::rapid());
 }
 
 NcResult<void> Machining::leave() {
   if (heights.second <= heights.clearance) return {};
-  return motion.to_height(heights.second, machine::Feed::rapid());
+  return to_height(heights.second, machine::Feed::rapid());
 }
 
 NcResult<void> check_values(const MachiningDefinition& definition) {
@@ -146,8 +146,7 @@ NcResult<void> check_values(const MachiningDefinition& definition) {
 NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definition) {
   const MachiningShape shape = definition.cycle->shape;
   if (shape > MachiningShape::Tapping && shape != MachiningShape::Engraving)
-    TRY(check_scaling(channel.machine().state(), working_plane(channel.machine()),
-                      "milling cycles are"));
+    TRY(check_scaling(channel.state(), working_plane(channel.machine()), "milling cycles are"));
   TRY(check_values(definition));
   Machining cycle({channel.machine(), channel.budget}, definition);
   TRY(note_standing(channel, *definition.cycle));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "nc/program/control_disk.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/run/cutter_path.hpp"
 
@@ -81,9 +80,8 @@ struct Heights {
 };
 
 /// The input of one execution of a cycle.
-struct Machining {
+struct Machining : ToolMotion {
   const MachiningDefinition& definition;
-  ToolMotion motion;
   Heights heights;
 
   Machining(const ToolMotion& tool, const MachiningDefinition& defined);

@@ -1,4 +1,3 @@
-#include "nc/run/channel.hpp"
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
@@ -18,9 +17,9 @@ NcResult<double> number_value(Channel& channel, const klartext::CycleParameter& 
   }
   const auto value = number(channel, written.value);
   if (!value || written.kind == CycleValue::Expression) return value;
-  double feed = *value * channel.length_unit() * channel.machine().state().modes.spindle_rpm;
+  double feed = *value * channel.length_unit() * channel.state().modes.spindle_rpm;
   if (written.kind == CycleValue::Fz) {
-    const machine::Tool* tool = channel.machine().state().active_tool();
+    const machine::Tool* tool = channel.state().active_tool();
     feed *= tool == nullptr ? 0 : tool->teeth;
   }
   return feed;

@@ -21,7 +21,6 @@ double bottom_of(const Machining& cycle) {
 /// Calls `mill` at each depth, after plunging at `where`.
 template <class Mill>
 NcResult<void> at_each_depth(Machining& cycle, Vec2 where, const Mill& mill) {
-  ToolMotion& motion = cycle.motion;
   const double bottom = bottom_of(cycle);
   const double infeed = cycle.value(202) > 0 ? cycle.value(202) : std::abs(cycle.value(201));
   TRY(cycle.start());
@@ -29,11 +28,11 @@ NcResult<void> at_each_depth(Machining& cycle, Vec2 where, const Mill& mill) {
     const double next = depth - bottom <= infeed ? bottom : depth - infeed;
     if (next == depth) return nc_error(1011, "the plunging depth Q202 is too small");
     depth = next;
-    TRY(motion.to_point(where, cycle.feed(207)));
-    TRY(motion.to_height(depth, cycle.feed(206)));
+    TRY(cycle.to_point(where, cycle.feed(207)));
+    TRY(cycle.to_height(depth, cycle.feed(206)));
     TRY(mill(depth));
   }
-  TRY(motion.to_height(cycle.heights.clearance, Feed::rapid()));
+  TRY(cycle.to_height(cycle.heights.clearance, Feed::rapid()));
   return cycle.leave();
 }
 
@@ -48,9 +47,8 @@ struct Outline {
 /// right side; `turn`: 1 counter-clockwise, -1 clockwise.
 NcResult<void> go_around(Machining& cycle, const Outline& outline, double a, double b,
                          double corner, double height, double turn) {
-  ToolMotion& motion = cycle.motion;
   const Feed feed = cycle.feed(207);
-  TRY(motion.to_point(outline.at({a, 0}), feed));
+  TRY(cycle.to_point(outline.at({a, 0}), feed));
   // The corners in the order of a counter-clockwise turn; clockwise is its image in the main axis.
   constexpr std::array<Vec2, 4> kCorners{Vec2{1, 1}, Vec2{-1, 1}, Vec2{-1, -1}, Vec2{1, -1}};
   for (std::size_t i = 0; i < kCorners.size(); ++i) {
@@ -61,11 +59,11 @@ NcResult<void> go_around(Machining& cycle, const Outline& outline, double a, dou
     const Vec2 first = arrives_along_y ? Vec2{point.x, centre.y} : Vec2{centre.x, point.y};
     const Vec2 last = arrives_along_y ? Vec2{centre.x, point.y} : Vec2{point.x, centre.y};
     const auto placed = [&](Vec2 p) { return outline.at({p.x, p.y * turn}); };
-    TRY(motion.to_point(placed(first), feed));
+    TRY(cycle.to_point(placed(first), feed));
     if (corner <= tolerance::kSamePoint) continue;
-    TRY(motion.arc(placed(centre), placed(last), turn * 90, height, feed));
+    TRY(cycle.arc(placed(centre), placed(last), turn * 90, height, feed));
   }
-  return motion.to_point(outline.at({a, 0}), feed);
+  return cycle.to_point(outline.at({a, 0}), feed);
 }
 
 /// A pocket or slot: back to its middle after each round.
@@ -73,16 +71,15 @@ NcResult<void> mill_inside(Machining& cycle, const Outline& outline, double a, d
                            double corner) {
   return at_each_depth(cycle, outline.origin, [&](double depth) -> NcResult<void> {
     TRY(go_around(cycle, outline, a, b, corner, depth, turn_inside(cycle)));
-    return cycle.motion.to_point(outline.origin, cycle.feed(207));
+    return cycle.to_point(outline.origin, cycle.feed(207));
   });
 }
 
 NcResult<void> full_circle(Machining& cycle, Vec2 centre, double radius, double height) {
-  ToolMotion& motion = cycle.motion;
   const Vec2 start = centre + Vec2{radius, 0};
-  TRY(motion.to_point(start, cycle.feed(207)));
-  TRY(motion.arc(centre, start, turn_inside(cycle) * 360, height, cycle.feed(207)));
-  return motion.to_point(centre, cycle.feed(207));
+  TRY(cycle.to_point(start, cycle.feed(207)));
+  TRY(cycle.arc(centre, start, turn_inside(cycle) * 360, height, cycle.feed(207)));
+  return cycle.to_point(centre, cycle.feed(207));
 }
 
 /// The offset of the figure's centre from the tool position, by Q367.
@@ -104,12 +101,12 @@ NcError does_not_fit(int number, double radius) {
 /// sign of the way around, so that both are tangents.
 NcResult<void> onto_circle(Machining& cycle, Vec2 centre, Vec2 point, double turn, double height,
                            const Feed& feed) {
-  return cycle.motion.arc((centre + point) * 0.5, point, std::copysign(180, turn), height, feed);
+  return cycle.arc((centre + point) * 0.5, point, std::copysign(180, turn), height, feed);
 }
 NcResult<void> off_circle(Machining& cycle, Vec2 centre, double turn, double height,
                           const Feed& feed) {
-  const Vec2 middle = (centre + cycle.motion.point()) * 0.5;
-  return cycle.motion.arc(middle, centre, std::copysign(180, turn), height, feed);
+  const Vec2 middle = (centre + cycle.point()) * 0.5;
+  return cycle.arc(middle, centre, std::copysign(180, turn), height, feed);
 }
 
 /// The allowance at the side of a stud: blocks without Q215 are of controls that leave the
@@ -124,17 +121,17 @@ template <class Point, class Around>
 NcResult<void> mill_outside(Machining& cycle, double excess, const Point& point,
                             const Around& around) {
   constexpr double kBeside = 2;  // mm beside the blank; the control's value
-  const double step = cycle.value(370) * cycle.motion.tool_radius();
-  if (step <= 0) return does_not_fit(1002, cycle.motion.tool_radius());
+  const double step = cycle.value(370) * cycle.tool_radius();
+  if (step <= 0) return does_not_fit(1002, cycle.tool_radius());
   const double turn = turn_inside(cycle);
   const double rounds = std::max(1.0, std::ceil(excess / step - tolerance::kSamePoint));
   const Feed feed = cycle.feed(207);
   const Vec2 start = point(1, kBeside);
-  TRY(cycle.motion.to_point(start, Feed::rapid()));
+  TRY(cycle.to_point(start, Feed::rapid()));
   return at_each_depth(cycle, start, [&](double depth) -> NcResult<void> {
     TRY(onto_circle(cycle, start, point((rounds - 1) / rounds, 0), turn, depth, feed));
     for (double left = rounds - 1; left >= 0; --left) {
-      TRY(cycle.motion.to_point(point(left / rounds, 0), feed));
+      TRY(cycle.to_point(point(left / rounds, 0), feed));
       TRY(around(left / rounds, depth));
     }
     return off_circle(cycle, start, turn, depth, feed);
@@ -143,7 +140,6 @@ NcResult<void> mill_outside(Machining& cycle, double excess, const Point& point,
 
 /// One helical path of a thread from `from` to `to`.
 NcResult<void> thread_path(Machining& cycle, Vec2 centre, double radius, double from, double to) {
-  ToolMotion& motion = cycle.motion;
   const double pitch = cycle.value(239);
   const bool outside = cycle.definition.cycle->descriptor.number == 267;
   const Vec2 start = centre + Vec2{radius, 0};
@@ -153,15 +149,15 @@ NcResult<void> thread_path(Machining& cycle, Vec2 centre, double radius, double 
   const Vec2 end = centre + turned(start - centre, sweep);
   if (outside) {
     const Vec2 beside = centre + Vec2{radius + cycle.value(200), 0};
-    TRY(motion.to_point(beside, cycle.feed(253)));
+    TRY(cycle.to_point(beside, cycle.feed(253)));
   }
-  TRY(motion.to_height(from, cycle.feed(253)));
-  TRY(outside ? motion.to_point(start, cycle.feed(207))
+  TRY(cycle.to_height(from, cycle.feed(253)));
+  TRY(outside ? cycle.to_point(start, cycle.feed(207))
               : onto_circle(cycle, centre, start, sweep, from, cycle.feed(207)));
-  TRY(motion.arc(centre, end, sweep, to, cycle.feed(207)));
+  TRY(cycle.arc(centre, end, sweep, to, cycle.feed(207)));
   if (!outside) return off_circle(cycle, centre, sweep, to, cycle.feed(207));
   const Vec2 beside = centre + (end - centre) * ((radius + cycle.value(200)) / radius);
-  return motion.to_point(beside, cycle.feed(207));
+  return cycle.to_point(beside, cycle.feed(207));
 }
 
 /// 264: drills the hole of the thread in infeeds. Without a depth there is no hole.
@@ -169,7 +165,7 @@ NcResult<void> drill_core(Machining& cycle) {
   MachiningDefinition core = cycle.definition;
   core.values[201] = cycle.value(356);
   if (core.value(201) == 0) return {};
-  Machining drilling(cycle.motion, core);
+  Machining drilling(cycle, core);
   return drill(drilling);
 }
 
@@ -181,8 +177,8 @@ NcResult<void> countersink(Machining& cycle) {
     if (cycle.value(parameter) == 0 || (parameter == 356 && is_core)) continue;
     const double height = cycle.heights.surface + cycle.value(parameter);
     const int feed = cycle.value(254) > 0 ? 254 : 207;
-    TRY(cycle.motion.to_height(height, cycle.feed(feed)));
-    TRY(cycle.motion.to_height(cycle.heights.clearance, Feed::rapid()));
+    TRY(cycle.to_height(height, cycle.feed(feed)));
+    TRY(cycle.to_height(cycle.heights.clearance, Feed::rapid()));
   }
   return {};
 }
@@ -190,35 +186,34 @@ NcResult<void> countersink(Machining& cycle) {
 }  // namespace
 
 NcResult<void> mill_bore(Machining& cycle) {
-  ToolMotion& motion = cycle.motion;
   const Heights& heights = cycle.heights;
-  const double radius = cycle.value(335) / 2 - motion.tool_radius();
-  if (radius < 0) return does_not_fit(1003, motion.tool_radius());
+  const double radius = cycle.value(335) / 2 - cycle.tool_radius();
+  if (radius < 0) return does_not_fit(1003, cycle.tool_radius());
   TRY(cycle.start());
   const Feed feed = cycle.feed(206);
   if (radius < tolerance::kSamePoint) {  // a hole with the diameter of the tool is drilled
-    TRY(motion.to_height(heights.bottom, feed));
+    TRY(cycle.to_height(heights.bottom, feed));
   } else {
-    const Vec2 centre = motion.point();
+    const Vec2 centre = cycle.point();
     const Vec2 start = centre + Vec2{radius, 0};
     const double turns = (heights.clearance - heights.bottom) / cycle.value(334);
     const double sweep = turn_inside(cycle) * 360 * turns;
     const Vec2 end = centre + turned(start - centre, sweep);
     TRY(onto_circle(cycle, centre, start, sweep, heights.clearance, feed));
-    TRY(motion.arc(centre, end, sweep, heights.bottom, feed));
-    TRY(motion.arc(centre, end, turn_inside(cycle) * 360, heights.bottom, feed));
+    TRY(cycle.arc(centre, end, sweep, heights.bottom, feed));
+    TRY(cycle.arc(centre, end, turn_inside(cycle) * 360, heights.bottom, feed));
     TRY(off_circle(cycle, centre, sweep, heights.bottom, feed));
   }
-  TRY(motion.to_height(heights.clearance, Feed::rapid()));
+  TRY(cycle.to_height(heights.clearance, Feed::rapid()));
   return cycle.leave();
 }
 
 NcResult<void> mill_rectangle(Machining& cycle) {
-  const double inset = cycle.motion.tool_radius() + side_allowance(cycle);
+  const double inset = cycle.tool_radius() + side_allowance(cycle);
   const double a = cycle.value(218) / 2 - inset;
   const double b = cycle.value(219) / 2 - inset;
-  if (a < 0 || b < 0) return does_not_fit(1029, cycle.motion.tool_radius());
-  Outline outline{cycle.motion.point(), cycle.value(224)};
+  if (a < 0 || b < 0) return does_not_fit(1029, cycle.tool_radius());
+  Outline outline{cycle.point(), cycle.value(224)};
   outline.origin = outline.at(rectangle_centre(cycle, cycle.value(218) / 2, cycle.value(219) / 2));
   const double corner = std::clamp(cycle.value(220) - inset, 0.0, std::min(a, b));
   return mill_inside(cycle, outline, a, b, corner);
@@ -226,13 +221,13 @@ NcResult<void> mill_rectangle(Machining& cycle) {
 
 NcResult<void> mill_circle(Machining& cycle) {
   const double half = cycle.value(223) / 2;
-  const double radius = half - cycle.motion.tool_radius() - side_allowance(cycle);
-  if (radius < 0) return does_not_fit(1029, cycle.motion.tool_radius());
+  const double radius = half - cycle.tool_radius() - side_allowance(cycle);
+  if (radius < 0) return does_not_fit(1029, cycle.tool_radius());
   // Q367 = 1 to 4: the tool is at a quarter of the circle, on its axes.
   constexpr std::array<Vec2, 5> kCentres{Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0},
                                          Vec2{0, -1}};
   const auto place = static_cast<std::size_t>(std::clamp(cycle.value(367), 0.0, 4.0));
-  const Vec2 centre = cycle.motion.point() + kCentres[place] * half;
+  const Vec2 centre = cycle.point() + kCentres[place] * half;
   return at_each_depth(cycle, centre,
                        [&](double depth) { return full_circle(cycle, centre, radius, depth); });
 }
@@ -240,23 +235,22 @@ NcResult<void> mill_circle(Machining& cycle) {
 NcResult<void> mill_slot(Machining& cycle) {
   const double half_length = cycle.value(218) / 2;
   const double half_width = cycle.value(219) / 2;
-  const double radius = half_width - cycle.motion.tool_radius() - side_allowance(cycle);
-  if (radius < 0) return does_not_fit(1028, cycle.motion.tool_radius());
+  const double radius = half_width - cycle.tool_radius() - side_allowance(cycle);
+  if (radius < 0) return does_not_fit(1028, cycle.tool_radius());
   const double reach = half_length - half_width;  // of the end circles' centres
   constexpr std::array<double, 5> kEnds{0, 1, 1, -1, -1};
   const auto place = static_cast<std::size_t>(std::clamp(cycle.value(367), 0.0, 4.0));
   double along = kEnds[place] * (place == 2 || place == 3 ? reach : half_length);
   // The old cycle begins in the slot, with the tool at its end.
-  if (cycle.definition.cycle->descriptor.dotted) along = half_length - cycle.motion.tool_radius();
-  Outline outline{cycle.motion.point(), cycle.value(374)};
+  if (cycle.definition.cycle->descriptor.dotted) along = half_length - cycle.tool_radius();
+  Outline outline{cycle.point(), cycle.value(374)};
   outline.origin = outline.at({along, 0});
   return mill_inside(cycle, outline, reach + radius, radius, radius);
 }
 
 NcResult<void> mill_circular_slot(Machining& cycle) {
-  ToolMotion& motion = cycle.motion;
-  const double width = cycle.value(219) / 2 - motion.tool_radius() - side_allowance(cycle);
-  if (width < 0) return does_not_fit(1028, motion.tool_radius());
+  const double width = cycle.value(219) / 2 - cycle.tool_radius() - side_allowance(cycle);
+  if (width < 0) return does_not_fit(1028, cycle.tool_radius());
   const double pitch = cycle.value(375) / 2;
   const double length = cycle.value(248);
   if (pitch - width <= 0) return nc_error(1003, "the slot lies across the centre of its circle");
@@ -265,7 +259,7 @@ NcResult<void> mill_circular_slot(Machining& cycle) {
   const auto place = static_cast<std::size_t>(std::clamp(cycle.value(367), 0.0, 3.0));
   const double angle = cycle.value(376) - kParts[place] * length;
   const Vec2 centre = place == 0 ? Vec2{cycle.value(216), cycle.value(217)}
-                                 : motion.point() - polar(pitch, cycle.value(376));
+                                 : cycle.point() - polar(pitch, cycle.value(376));
   const Feed feed = cycle.feed(207);
   const auto slots = static_cast<int>(std::max(1.0, cycle.value(377)));
   for (int i = 0; i < slots; ++i) {
@@ -273,17 +267,17 @@ NcResult<void> mill_circular_slot(Machining& cycle) {
     const double last = first + length;
     const auto on = [&](double radius, double at) { return centre + polar(radius, at); };
     if (i > 0 || place == 0) {
-      TRY(motion.to_height(cycle.heights.second, Feed::rapid()));
-      TRY(motion.to_point(on(pitch, first), Feed::rapid()));
+      TRY(cycle.to_height(cycle.heights.second, Feed::rapid()));
+      TRY(cycle.to_point(on(pitch, first), Feed::rapid()));
     }
     const auto mill = [&](double depth) -> NcResult<void> {
-      TRY(motion.to_point(on(pitch + width, first), feed));
-      TRY(motion.arc(centre, on(pitch + width, last), length, depth, feed));
+      TRY(cycle.to_point(on(pitch + width, first), feed));
+      TRY(cycle.arc(centre, on(pitch + width, last), length, depth, feed));
       if (width <= tolerance::kSamePoint) return {};
       const double end = std::copysign(180, length);
-      TRY(motion.arc(on(pitch, last), on(pitch - width, last), end, depth, feed));
-      TRY(motion.arc(centre, on(pitch - width, first), -length, depth, feed));
-      return motion.arc(on(pitch, first), on(pitch + width, first), end, depth, feed);
+      TRY(cycle.arc(on(pitch, last), on(pitch - width, last), end, depth, feed));
+      TRY(cycle.arc(centre, on(pitch - width, first), -length, depth, feed));
+      return cycle.arc(on(pitch, first), on(pitch + width, first), end, depth, feed);
     };
     TRY(at_each_depth(cycle, on(pitch, first), mill));
   }
@@ -291,18 +285,17 @@ NcResult<void> mill_circular_slot(Machining& cycle) {
 }
 
 NcResult<void> mill_thread(Machining& cycle) {
-  ToolMotion& motion = cycle.motion;
   const Heights& heights = cycle.heights;
   const int number = cycle.definition.cycle->descriptor.number;
   const double pitch = std::abs(cycle.value(239));
   const double nominal = cycle.value(335) / 2;
   const double radius =
-      number == 267 ? nominal + motion.tool_radius() : nominal - motion.tool_radius();
-  if (radius <= 0) return does_not_fit(1003, motion.tool_radius());
+      number == 267 ? nominal + cycle.tool_radius() : nominal - cycle.tool_radius();
+  if (radius <= 0) return does_not_fit(1003, cycle.tool_radius());
   if (number == 264) TRY(drill_core(cycle));
   TRY(cycle.start());
   TRY(countersink(cycle));
-  const Vec2 centre = motion.point();
+  const Vec2 centre = cycle.point();
   // Climb milling turns counter-clockwise inside and clockwise outside: a right-hand thread goes up
   // in a hole and down on a bolt. 265 drills the thread on its way down.
   const bool follows_hand = (cycle.value(351) < 0) == (cycle.value(239) < 0);
@@ -319,17 +312,17 @@ NcResult<void> mill_thread(Machining& cycle) {
     TRY(thread_path(cycle, centre, radius, up ? bottom : top, up ? top : bottom));
     if (bottom + step == bottom) break;
   }
-  TRY(motion.to_height(heights.clearance, Feed::rapid()));
-  if (number == 267) TRY(motion.to_point(centre, Feed::rapid()));
+  TRY(cycle.to_height(heights.clearance, Feed::rapid()));
+  if (number == 267) TRY(cycle.to_point(centre, Feed::rapid()));
   return cycle.leave();
 }
 
 NcResult<void> mill_rectangular_stud(Machining& cycle) {
   const double left = stud_allowance(cycle);
-  const double reach = cycle.motion.tool_radius() + left;
+  const double reach = cycle.tool_radius() + left;
   const Vec2 half{cycle.value(218) / 2, cycle.value(219) / 2};
   const Vec2 excess = Vec2{cycle.value(424) / 2, cycle.value(425) / 2} - half;
-  Outline outline{cycle.motion.point(), cycle.value(224)};
+  Outline outline{cycle.point(), cycle.value(224)};
   outline.origin = outline.at(rectangle_centre(cycle, half.x, half.y));
   const auto sides = [&](double part) {
     return half + Vec2{reach, reach} +
@@ -350,22 +343,21 @@ NcResult<void> mill_rectangular_stud(Machining& cycle) {
 NcResult<void> mill_circular_stud(Machining& cycle) {
   const double left = stud_allowance(cycle);
   const double excess = std::max(0.0, (cycle.value(222) - cycle.value(223)) / 2 - left);
-  const Vec2 centre = cycle.motion.point();
+  const Vec2 centre = cycle.point();
   const double angle = std::max(0.0, cycle.value(376));  // -1: where the control likes
   const auto point = [&](double part, double beside) {
-    const double finished = cycle.value(223) / 2 + left + cycle.motion.tool_radius();
+    const double finished = cycle.value(223) / 2 + left + cycle.tool_radius();
     return centre + polar(finished + part * excess + beside, angle);
   };
   return mill_outside(cycle, excess, point, [&](double part, double depth) {
-    return cycle.motion.arc(centre, point(part, 0), turn_inside(cycle) * -360, depth,
-                            cycle.feed(207));
+    return cycle.arc(centre, point(part, 0), turn_inside(cycle) * -360, depth, cycle.feed(207));
   });
 }
 
 NcResult<void> engrave(Machining& cycle) {
   TRY(cycle.start());
-  TRY(cycle.motion.to_height(cycle.heights.bottom, cycle.feed(206)));
-  TRY(cycle.motion.to_height(cycle.heights.clearance, Feed::rapid()));
+  TRY(cycle.to_height(cycle.heights.bottom, cycle.feed(206)));
+  TRY(cycle.to_height(cycle.heights.clearance, Feed::rapid()));
   return cycle.leave();
 }
 

@@ -2,9 +2,7 @@
 
 #include "nc/klartext/parser_words.hpp"
 #include "nc/program/diagnose.hpp"
-#include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
-#include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -14,11 +12,11 @@ using klartext::Word;
 
 /// The feed of FU (mm per revolution) and FZ (mm per tooth).
 double feed_of_revolutions(const Channel& channel, double per_revolution) {
-  return per_revolution * channel.machine().state().modes.spindle_rpm;
+  return per_revolution * channel.state().modes.spindle_rpm;
 }
 
 int teeth(const Channel& channel) {
-  const machine::Tool* tool = channel.machine().state().active_tool();
+  const machine::Tool* tool = channel.state().active_tool();
   return tool == nullptr ? 0 : tool->teeth;
 }
 
@@ -157,7 +155,7 @@ NcResult<MotionWords> read_words(Channel& channel, klartext::Slice<Word> words) 
 }
 
 NcResult<machine::Feed> use_feed(Channel& channel, const std::optional<machine::Feed>& written) {
-  machine::Modes modes = channel.machine().state().modes;
+  machine::Modes modes = channel.state().modes;
   if (!written) return machine::Feed::at(modes.feed_mm_min);
   if (!written->is_rapid && written->rate != modes.feed_mm_min) {
     modes.feed_mm_min = written->rate;

@@ -1,6 +1,4 @@
-#include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
-#include "nc/run/values.hpp"
 
 /// Patterns of points: 220, 221 and PATTERN DEF run a machining cycle at each of them.
 namespace fitgauge::interpreter {

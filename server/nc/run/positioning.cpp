@@ -1,5 +1,4 @@
 #include "nc/klartext/parser_words.hpp"
-#include "nc/run/channel.hpp"
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
@@ -43,7 +42,7 @@ class Positioning {
       case Path::L:
       case Path::Ln:
         if (words_.has_m(91) || words_.has_m(92)) return line_in(CoordinateSystem::Reference);
-        if (words_.has_m(130) && channel_.machine().state().frames.is_tilted())
+        if (words_.has_m(130) && channel_.state().frames.is_tilted())
           return line_in(CoordinateSystem::Workpiece);
         [[fallthrough]];
       case Path::Lp:
@@ -199,13 +198,13 @@ class Positioning {
     if (contour().lengthening() != 0 && motion_.path != Path::Ln) return lengthened_line(end);
     auto made = TRY(element({start_, end}));
     made.shift = TRY(shift_of_surface());
-    const bool is_pieced = channel_.turns_along_vector && channel_.machine().state().modes.tcpm;
+    const bool is_pieced = channel_.turns_along_vector && channel_.state().modes.tcpm;
     return is_pieced ? add_along_vector(made) : move_along(made);
   }
 
   /// PATHCTRL VECTOR: adds the line in pieces, if it turns the tool.
   NcResult<void> add_along_vector(const Element& line) {
-    const machine::MachineState& state = channel_.machine().state();
+    const machine::MachineState& state = channel_.state();
     const machine::Position end = moved(position_, line.target);
     const auto to_machine = [&](const machine::Vec3& rotary) {
       return state.frames.rotary_to_machine(rotary, CoordinateSystem::Input);
@@ -241,7 +240,7 @@ class Positioning {
   NcResult<machine::Vec3> shift_of_surface() {
     const auto normal = TRY(vector_of(channel_, motion_, klartext::Letter::Nx));
     if (!normal || contour().side() != 0) return machine::Vec3{};
-    const machine::MachineState& state = channel_.machine().state();
+    const machine::MachineState& state = channel_.state();
     const machine::Tool* tool = state.active_tool();
     const double oversize = state.tool.dr + (tool == nullptr ? 0 : tool->dr);
     return machine::unit(*normal) * radius_in_plane(state, oversize);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "nc/program/arithmetic.hpp"
 #include "nc/program/linked_program.hpp"
 #include "nc/program/parameter.hpp"
 #include "nc/run/nc_error.hpp"

@@ -1,9 +1,63 @@
 #pragma once
 
-#include "nc/run/run_budget.hpp"
-#include "nc/run/run_observer.hpp"
+#include "base/allowance.hpp"
+#include "nc/run/nc_error.hpp"
+#include "nc/run/run_result.hpp"
 
 namespace fitgauge::interpreter {
+
+/// Budget of one run. A run above one of these limits ends with LimitExceeded. The two depths are
+/// limits of the control (error 1025).
+struct RunLimits {
+  std::uint64_t blocks = 1'000'000;
+  std::chrono::duration<double> time{10.0};         ///< of the wall clock
+  std::size_t label_depth = 19;                     ///< subprograms nested by CALL LBL
+  std::size_t program_depth = 19;                   ///< programs nested by CALL PGM
+  std::size_t output_bytes = std::size_t{4} << 20;  ///< screen, files, messages and records
+  std::size_t files = 100;                          ///< written
+  /// Memory of the run: programs, tables, masks, presets, files, records, its trace.
+  std::size_t memory_bytes = std::size_t{48} << 20;
+};
+
+/// The blocks of a run, and its allowance of time and memory. The executor reserves blocks in
+/// portions and counts them itself; the allowance is checked with each portion, with each block
+/// that is more than arithmetic, and in every loop inside of such a block.
+class RunBudget {
+ public:
+  /// @param allowance is also that of the run's machine, and must outlive the budget
+  RunBudget(const RunLimits& limits, Allowance& allowance)
+      : limits_(limits), allowance_(allowance) {}
+
+  /// Returns the rest of a portion and reserves a new one of at least `needed` blocks.
+  /// @errors limit (blocks, time), cancelled.
+  NcResult<std::int64_t> refuel(std::int64_t left, std::int64_t needed);
+  /// The rest of a portion if its executor ends before the run.
+  void give_back(std::int64_t left) { granted_ -= static_cast<std::uint64_t>(left); }
+  /// Checks the budget. Call it in loops, and for each block that is more than arithmetic.
+  /// @errors limit (time, memory), cancelled.
+  NcResult<void> check() {
+    if (!allowance_.is_spent()) [[likely]]
+      return {};
+    return *refusal();
+  }
+  /// Returns the refusal of an earlier check, if the allowance is spent: it is the cause of later
+  /// failures.
+  std::optional<NcError> refusal() const;
+
+  Allowance& allowance() { return allowance_; }
+
+  /// @param left of the last portion.
+  std::uint64_t executed(std::int64_t left) const {
+    return granted_ - static_cast<std::uint64_t>(left);
+  }
+
+ private:
+  static constexpr std::int64_t kPortion = 8192;
+
+  const RunLimits limits_;
+  Allowance& allowance_;
+  std::uint64_t granted_ = 0;
+};
 
 /// The rest of the run's output budget; every stored text is charged to it.
 class OutputBudget {

@@ -1,4 +1,3 @@
-#include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
 
 namespace fitgauge::interpreter {
@@ -90,7 +89,7 @@ bool are_the_same(const machine::Frames& a, const machine::Frames& b) {
 NcResult<SlDrawing> draw(Channel& channel, const klartext::Label& label) {
   const auto first = find_label(channel, label);
   if (!first) return nc_error(1024, "a contour label of cycle 14 is not defined in this program");
-  const machine::Frames frames = channel.machine().state().frames;
+  const machine::Frames frames = channel.state().frames;
   const Contour path = std::exchange(channel.contour, Contour());
   channel.contour.tool_feed = path.tool_feed;
   channel.contour.pole = path.pole;
@@ -100,8 +99,7 @@ NcResult<SlDrawing> draw(Channel& channel, const klartext::Label& label) {
   if (!done) return done.error();
   SlDrawing drawing = *channel.contour.drawing();
   channel.contour = path;
-  if (!are_the_same(channel.machine().state().frames, frames))
-    TRY(channel.machine().set_frames(frames));
+  if (!are_the_same(channel.state().frames, frames)) TRY(channel.machine().set_frames(frames));
   return drawing;
 }
 

@@ -1,7 +1,5 @@
 #include "nc/run/statements.hpp"
 
-#include "nc/run/channel.hpp"
-
 namespace fitgauge::interpreter {
 namespace {
 
@@ -29,7 +27,7 @@ NcResult<Next> dispatch(Channel& channel, const Instruction& instruction,
   } else if constexpr (requires { execute(channel, statement); }) {
     return wrap(execute(channel, statement));
   } else {
-    return Next{};  // comments, labels: the linker makes no code of them
+    return Next{};  // comments, labels: the linker makes no code of them; the mode, always MILL
   }
 }
 

@@ -1,12 +1,9 @@
 #pragma once
 
-#include "nc/program/linked_program.hpp"
-#include "nc/run/motion_words.hpp"
+#include "nc/run/values.hpp"
 
 /// One function for each kind of block; a family is in one exec_* file.
 namespace fitgauge::interpreter {
-
-class Channel;
 
 /// The next step of the run after a block.
 struct Next {
@@ -91,12 +88,9 @@ NcResult<void> retract(Channel& channel, const MCall& call);
 // exec_frames.cpp
 NcResult<void> execute(Channel& channel, const klartext::Trans& trans);
 NcResult<void> execute(Channel& channel, const klartext::Plane& plane);
-NcResult<void> execute(Channel& channel, const klartext::FunctionMode& mode);
 NcResult<void> execute(Channel& channel, const klartext::FunctionTcpm& tcpm);
 
 // frame_commands.cpp
-class Channel;
-
 using AxisCoordinates = std::array<std::optional<Coordinate>, machine::kAxes>;
 
 /// Axes that are not named keep their shift.

@@ -1,4 +1,3 @@
-#include "nc/run/channel.hpp"
 #include "nc/run/values.hpp"
 #include "tables/tabfile/characters.hpp"
 
@@ -65,7 +64,7 @@ NcResult<std::string> system_string(Channel& channel, Operands operands) {
   if (id == 10010 && nr == 1) return channel.calls.main_program().path().text();
   if (id == 10010 && nr == 2) return channel.linked().path().text();
   if ((id == 10060 || id == 10950) && nr <= 1) {
-    const machine::Tool* tool = channel.machine().state().active_tool();
+    const machine::Tool* tool = channel.state().active_tool();
     return tool == nullptr ? std::string() : tool->name;
   }
   if (id == 10321) {

@@ -1,5 +1,4 @@
 #include "nc/program/system_addresses.hpp"
-#include "nc/run/channel.hpp"
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
@@ -120,7 +119,7 @@ constexpr int key(int id, int nr) { return id * 1000 + nr; }
 Answer axis_data(const Channel& channel, const Address& address) {
   const auto axis = axis_of(address);
   if (!axis) return std::nullopt;
-  const MachineState& state = channel.machine().state();
+  const MachineState& state = channel.state();
   const auto& frames = state.frames;
   const auto& touch = channel.last_touch;
   const auto& range = state.ranges[machine::index(*axis)];
@@ -149,7 +148,7 @@ Answer axis_data(const Channel& channel, const Address& address) {
 }
 
 Answer find(const Channel& channel, const Address& address) {
-  const MachineState& state = channel.machine().state();
+  const MachineState& state = channel.state();
   const machine::Frames& frames = state.frames;
   const machine::Modes& modes = state.modes;
   const auto axis = axis_of(address);
@@ -229,7 +228,7 @@ NcResult<double> preset_data(const MachineState& state, const Address& address) 
 }
 
 NcResult<void> write_tool(Channel& channel, const Address& address, double value) {
-  const MachineState& state = channel.machine().state();
+  const MachineState& state = channel.state();
   const auto number = address.index.value_or(state.tool.number);
   const machine::Tool* found = number == 0 ? nullptr : find_tool(state, number);
   if (found == nullptr) return no_tool(number);
@@ -248,7 +247,7 @@ NcResult<void> write_tool(Channel& channel, const Address& address, double value
 NcResult<void> write_preset(Channel& channel, const Address& address, double value) {
   const auto axis = axis_of(address);
   if (!axis || address.nr < 0 || address.nr > machine::kLastPreset) return unknown(address);
-  const machine::Preset* found = channel.machine().state().presets.find(address.nr);
+  const machine::Preset* found = channel.state().presets.find(address.nr);
   machine::Preset preset = found != nullptr ? *found : machine::Preset{};
   preset.number = address.nr;
   const std::size_t i = machine::index(*axis);
@@ -266,10 +265,9 @@ NcResult<double> read_system_data(Channel& channel, klartext::NodeIndex node) {
   const auto address = TRY(read_address(channel, node));
   if (!has_system_data(address.id, address.nr, false)) return unknown(address);
   if (address.id == 500) return datum_data(channel, address);
-  if (address.id == 502 || address.id == 503)
-    return preset_data(channel.machine().state(), address);
+  if (address.id == 502 || address.id == 503) return preset_data(channel.state(), address);
   if (address.id == 50) {
-    const machine::MachineState& state = channel.machine().state();
+    const machine::MachineState& state = channel.state();
     const auto number = address.index.value_or(state.tool.number);
     if (find_tool(state, number) == nullptr) return no_tool(number);
   }

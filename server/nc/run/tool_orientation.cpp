@@ -1,4 +1,3 @@
-#include "nc/run/channel.hpp"
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
@@ -23,7 +22,7 @@ std::optional<double> nearest_turn(double angle, double from, const machine::Axi
 }
 
 NcResult<void> stand_along(Channel& channel, const Vec3& direction, MotionWords& words) {
-  const machine::MachineState& state = channel.machine().state();
+  const machine::MachineState& state = channel.state();
   const machine::Position position = channel.contour.position(channel.machine());
   const Vec3 from = state.frames.rotary_to_machine(position.rotary, CoordinateSystem::Input);
   machine::Frames on_table = state.frames;
@@ -62,7 +61,7 @@ NcResult<void> turn_by_angles(Channel& channel, SpatialAngles& angles, MotionWor
     }
     spatial[letter] = *angles[letter];
   }
-  const machine::Axis tool_axis = channel.machine().state().tool_axis();
+  const machine::Axis tool_axis = channel.state().tool_axis();
   return stand_along(channel, machine::Matrix3::spatial(spatial) * machine::unit_vector(tool_axis),
                      words);
 }
@@ -116,10 +115,10 @@ NcResult<std::optional<Vec3>> vector_of(Channel& channel, const klartext::Motion
 
 NcResult<void> orient_tool(Channel& channel, const klartext::Motion& motion, MotionWords& words) {
   if (words.has_m(91) || words.has_m(92)) return {};
-  const bool follows = channel.machine().state().modes.tcpm;
+  const bool follows = channel.state().modes.tcpm;
   auto vector = vector_of(channel, motion, Letter::Tx);
   if (!vector) return vector.error();
-  if (!*vector && follows && !channel.machine().state().kinematics.axes().empty()) {
+  if (!*vector && follows && !channel.state().kinematics.axes().empty()) {
     vector = vector_of(channel, motion, Letter::Nx);  // square to the surface
     if (!vector) return vector.error();
   }

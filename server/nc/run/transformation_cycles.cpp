@@ -1,6 +1,4 @@
-#include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
-#include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

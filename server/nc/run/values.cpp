@@ -1,7 +1,5 @@
 #include "nc/run/values.hpp"
 
-#include "nc/run/channel.hpp"
-
 namespace fitgauge::interpreter {
 namespace {
 
@@ -226,7 +224,7 @@ bool is_tool_length(std::int64_t nr) {
 }
 
 void update_preassigned(Channel& channel) {
-  const machine::MachineState& state = channel.machine().state();
+  const machine::MachineState& state = channel.state();
   QParameters& q = channel.parameters;
   const bool is_inch = channel.calls.main_program().is_inch();
   const double unit = is_inch ? 25.4 : 1.0;

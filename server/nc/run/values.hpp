@@ -1,13 +1,8 @@
 #pragma once
 
-#include "base/clock.hpp"
-#include "nc/machine/machine_state.hpp"
-#include "nc/program/code.hpp"
-#include "nc/run/nc_error.hpp"
+#include "nc/run/channel.hpp"
 
 namespace fitgauge::interpreter {
-
-class Channel;
 
 /// The values of the operands of a block, in the program that runs. Reading an undefined parameter
 /// is an error that names it (decision 3); the executor adds the block.

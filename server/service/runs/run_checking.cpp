@@ -3,7 +3,6 @@
 #include "nc/iso/parser.hpp"
 #include "nc/klartext/mask_file.hpp"
 #include "nc/klartext/printer.hpp"
-#include "nc/program/check.hpp"
 #include "nc/program/program_cache.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/runs/run_service.hpp"

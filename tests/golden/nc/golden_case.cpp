@@ -3,7 +3,6 @@
 #include <fstream>
 
 #include "nc/machine/simulated_machine.hpp"
-#include "nc/program/check.hpp"
 #include "nc/program/program_cache.hpp"
 #include "tables/tabfile/iso286_projection.hpp"
 #include "tables/tabfile/tab_table.hpp"

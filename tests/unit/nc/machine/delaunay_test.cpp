@@ -1,4 +1,3 @@
-#include "nc/machine/delaunay.hpp"
 
 #include <doctest/doctest.h>
 

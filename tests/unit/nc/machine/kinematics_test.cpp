@@ -1,4 +1,4 @@
-#include "nc/machine/kinematics.hpp"
+#include "nc/machine/frames.hpp"
 
 #include <doctest/doctest.h>
 

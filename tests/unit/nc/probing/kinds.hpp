@@ -1,6 +1,6 @@
 #pragma once
 
-#include "nc/machine/kinematics.hpp"
+#include "nc/machine/frames.hpp"
 
 namespace fitgauge::probing {
 

@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include "nc/machine/simulated_machine.hpp"
-#include "nc/program/check.hpp"
 #include "nc/program/program_cache.hpp"
 #include "nc/run/interpreter.hpp"
 #include "support/tracing_machine.hpp"
