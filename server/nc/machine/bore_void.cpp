@@ -159,9 +159,8 @@ double BoreVoid::nearest_angle(const Local& p) const {
   const auto angle_of = [&](int sample) { return towards + width * sample; };
   for (int sample = 0; sample < samples; ++sample) {
     const double here = squared(angle_of(sample)).value;
-    if (here > squared(angle_of(sample - 1)).value || here > squared(angle_of(sample + 1)).value) {
+    if (here > squared(angle_of(sample - 1)).value || here > squared(angle_of(sample + 1)).value)
       continue;
-    }
     const double t = descend(angle_of(sample), width);
     const double value = squared(t).value;
     if (value < least) {

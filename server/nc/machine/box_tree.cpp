@@ -66,9 +66,8 @@ BoxTree::BoxTree(const std::vector<Box>& boxes, std::vector<std::uint32_t>& orde
   for (const Box& box : boxes) {
     Item& item = items.emplace_back();
     item.box = static_cast<std::uint32_t>(items.size() - 1);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
       item.centre[axis] = middle(box.min[axis], box.max[axis]);
-    }
   }
   nodes_.reserve(boxes.size());
   if (!items.empty()) build(boxes, items, 0, static_cast<std::uint32_t>(items.size()));

@@ -18,9 +18,8 @@ Control::Control(const MachineSetup& setup, std::unique_ptr<Axes> axes, Allowanc
   state_.tt = setup.tt.known;
   for (const Preset& preset : setup.presets) state_.presets.write(preset);
   state_.active_preset = setup.active_preset;
-  if (const Preset* preset = state_.presets.find(setup.active_preset)) {
+  if (const Preset* preset = state_.presets.find(setup.active_preset))
     state_.frames.set_preset(preset->frame);
-  }
   state_.rapid_mm_min = setup.rapid_mm_min;
   state_.nose = axes_->nose();
 }
@@ -32,9 +31,7 @@ MachineResult<void> Control::call_tool(const ToolCall& call) {
               "S, DL, DR and DR2 of a tool call are numbers"));
   if (call.number && *call.number != 0) {
     const Tool* tool = state_.tools.find(*call.number);
-    if (tool == nullptr) {
-      return make_fault(FaultKind::ToolUnknown, "tool {}", *call.number);
-    }
+    if (tool == nullptr) return make_fault(FaultKind::ToolUnknown, "tool {}", *call.number);
     if (tool->locked) return make_fault(FaultKind::ToolLocked, "tool {}", *call.number);
   }
   if (call.number) state_.tool = {*call.number, state_.tool.axis, call.dl, call.dr, call.dr2};
@@ -44,9 +41,8 @@ MachineResult<void> Control::call_tool(const ToolCall& call) {
 }
 
 MachineResult<void> Control::write_tool(const Tool& tool) {
-  if (!is_finite({tool.l, tool.r, tool.r2}) || !is_finite({tool.dl, tool.dr, tool.dr2})) {
+  if (!is_finite({tool.l, tool.r, tool.r2}) || !is_finite({tool.dl, tool.dr, tool.dr2}))
     return make_fault(FaultKind::ValueInvalid, "lengths of tool {}", tool.number);
-  }
   state_.tools.write(tool);
   return {};
 }
@@ -62,17 +58,15 @@ MachineResult<void> Control::write_probe(const ProbeRow& row) {
 
 MachineResult<void> Control::write_preset(const Preset& preset) {
   const auto& [origin, rotation, offsets] = preset.frame;
-  if (!is_finite(origin) || !is_finite(rotation) || !is_finite(offsets) || preset.number < 0) {
+  if (!is_finite(origin) || !is_finite(rotation) || !is_finite(offsets) || preset.number < 0)
     return make_fault(FaultKind::ValueInvalid, "values of preset {}", preset.number);
-  }
   if (preset.number > kLastPreset) {
     return make_fault(FaultKind::ValueInvalid, "preset {}: the last row of the table is {}",
                       preset.number, kLastPreset);
   }
   const Preset* old = state_.presets.find(preset.number);
-  if (old != nullptr && old->locked) {
+  if (old != nullptr && old->locked)
     return make_fault(FaultKind::PresetLocked, "preset {}", preset.number);
-  }
   state_.presets.write(preset);
   return {};
 }
@@ -101,9 +95,8 @@ MachineResult<void> Control::set_frames(const Frames& frames) {
 }
 
 MachineResult<void> Control::set_modes(const Modes& modes) {
-  if (modes.tcpm && !state_.kinematics_options.tcpm) {
+  if (modes.tcpm && !state_.kinematics_options.tcpm)
     return make_fault(FaultKind::OptionMissing, "TCPM (tcpm_option of the setup)");
-  }
   TRY(require(modes.spindle_rpm >= 0 && modes.feed_mm_min >= 0,
               "spindle speed and feed are 0 or more"));
   TRY(require(std::isfinite(modes.spindle_deg), "the spindle is oriented to a finite angle"));
@@ -116,9 +109,8 @@ MachineResult<void> Control::set_kinematics(const Kinematics& kinematics) {
   for (const RotaryAxis& axis : kinematics.axes()) {
     if (!state_.ranges[index(axis.axis)])
       return make_fault(FaultKind::AxisMissing, name(axis.axis));
-    if (!is_finite(axis.centre) || !is_finite(axis.direction)) {
+    if (!is_finite(axis.centre) || !is_finite(axis.direction))
       return make_fault(FaultKind::ValueInvalid, "kinematics of {}", name(axis.axis));
-    }
   }
   TRY(require(is_finite(kinematics.offset()), "offset of the kinematics"));
   state_.kinematics = kinematics;
@@ -131,9 +123,8 @@ void Control::refresh_table() {
 }
 
 MachineResult<void> Control::dwell(double seconds) {
-  if (!std::isfinite(seconds) || seconds < 0) {
+  if (!std::isfinite(seconds) || seconds < 0)
     return make_fault(FaultKind::ValueInvalid, "a dwell of {} s", seconds);
-  }
   TRY(axes_->dwell(seconds, allowance_));
   spend(seconds);
   return {};
@@ -149,9 +140,8 @@ MachineResult<ContactPoint> Control::touch(const ProbeMove& move) {
   TRY(require(is_finite(along) && norm(along) != 0 && std::isfinite(move.distance) &&
                   move.distance > 0 && std::isfinite(retract) && retract >= 0,
               "a probing move needs a direction and a distance"));
-  if (!axes_->capabilities().probes) {
+  if (!axes_->capabilities().probes)
     return make_fault(FaultKind::OptionMissing, "the machine has no probe input");
-  }
   const Vec3 direction = unit(along);
   const double reachable = reach(direction, move.distance);
   const Position start = state_.nose;
@@ -204,9 +194,8 @@ double Control::reach(const Vec3& direction, double distance) const {
 ContactPoint Control::contact_point(const Vec3& direction) const {
   const Frames& frames = state_.frames;
   Vec3 centre = state_.ball_centre(CoordinateSystem::Machine);
-  if (const auto probe = state_.probe_system()) {
+  if (const auto probe = state_.probe_system())
     centre = centre + probe->centre_offset(state_.tool_axis(), state_.modes.spindle_deg);
-  }
   ContactPoint point;
   point.tip_machine =
       centre - state_.tool_direction(CoordinateSystem::Machine) * state_.tool_radius();

@@ -9,9 +9,8 @@ constexpr double kLongestSeconds = 1e12;
 
 MachineResult<void> check_finite(const AxisWords& words) {
   for (const Axis axis : kAllAxes) {
-    if (words[axis] && !std::isfinite(*words[axis])) {
+    if (words[axis] && !std::isfinite(*words[axis]))
       return make_fault(FaultKind::ValueInvalid, "{} is not a number", name(axis));
-    }
   }
   return {};
 }
@@ -62,15 +61,13 @@ MachineResult<Position> Control::target_nose(const LinearMove& move, const Frame
   bool has_linear = false;
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
     has_linear = has_linear || move.target[axis];
-    if (move.target[axis] && !state_.ranges[index(axis)]) {
+    if (move.target[axis] && !state_.ranges[index(axis)])
       return make_fault(FaultKind::AxisMissing, name(axis));
-    }
   }
   Vec3 point = state_.nose.linear;
   const auto take_words = [&] {
-    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
       point[index(axis)] = move.target[axis].value_or(point[index(axis)]);
-    }
   };
   if (move.system == CoordinateSystem::Reference || (!has_linear && !state_.modes.tcpm)) {
     take_words();
@@ -171,9 +168,8 @@ MachineResult<void> Control::check_way(const Path& path, double turn_deg) {
   const auto steps = static_cast<int>(turn_deg / kStepDeg) + 1;
   for (int step = 1; step < steps; ++step) {
     constexpr int kBetweenLooks = 256;
-    if (step % kBetweenLooks == 0 && allowance_.is_spent()) {
+    if (step % kBetweenLooks == 0 && allowance_.is_spent())
       return make_fault(FaultKind::Interrupted);
-    }
     TRY(check_range(path.nose(static_cast<double>(step) / steps)));
   }
   return {};

@@ -197,9 +197,8 @@ Triangulation delaunay(const std::vector<Vec3>& points) {
   constexpr double kNanometres = 1e6;
   std::vector<GridPoint> grid;
   grid.reserve(points.size());
-  for (const Vec3& p : points) {
+  for (const Vec3& p : points)
     grid.push_back({std::llround(p.x * kNanometres), std::llround(p.y * kNanometres)});
-  }
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0U);
   const auto at = [&grid](std::uint32_t p) { return grid[p]; };
@@ -214,9 +213,8 @@ Triangulation delaunay(const std::vector<Vec3>& points) {
   Sweep sweep(std::move(sorted));
   sweep.run();
   const auto& corners = sweep.corners();
-  for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
+  for (std::size_t k = 0; k + 2 < corners.size(); k += 3)
     result.triangles.push_back({order[corners[k]], order[corners[k + 1]], order[corners[k + 2]]});
-  }
   for (const std::uint32_t p : sweep.hull()) result.hull.push_back(order[p]);
   return result;
 }

@@ -8,9 +8,8 @@ Matrix3 operator*(const Matrix3& a, const Matrix3& b) {
   const Matrix3 columns = b.transposed();
   Matrix3 product;
   for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t column = 0; column < 3; ++column) {
+    for (std::size_t column = 0; column < 3; ++column)
       product.rows[row][column] = dot(a.rows[row], columns.rows[column]);
-    }
   }
   return product;
 }

@@ -134,9 +134,8 @@ std::vector<Vec3> Kinematics::orientations(const Vec3& normal, const Vec3& shown
   std::vector<Vec3> found;
   const auto keep = [&](const Vec3& rotary) {
     Vec3 reached = tool;
-    for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) {
+    for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint)
       reached = Matrix3::rotation(joint->direction, rotary[joint->letter]) * reached;
-    }
     if (norm(reached - normal) > tolerance::kSameDirection) return;
     const auto same = [&](const Vec3& other) {
       return way(rotary, other) < tolerance::kSameDirection;
@@ -151,9 +150,8 @@ std::vector<Vec3> Kinematics::orientations(const Vec3& normal, const Vec3& shown
         angle_between(tool, normal, joints[k].direction, current[joints[k].letter]);
     keep(rotary);
     for (std::size_t other = k + 1; other < joints.size(); ++other) {
-      for (const Vec3& pair : solve_pair(joints[k], joints[other], tool, normal, current)) {
+      for (const Vec3& pair : solve_pair(joints[k], joints[other], tool, normal, current))
         keep(pair);
-      }
     }
   }
   // If two solutions are equally near, the one with the larger angles of A and B is used, as in the

@@ -33,9 +33,8 @@ class Findings {
     within(where, mm_min, kSlowest, kLongestMm);
   }
   void point(const std::string& where, const Vec3& p, double most = kLongestMm) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
       within(fmt::format("{}/{}", where, axis), p[axis], -most, most);
-    }
   }
   void direction(const std::string& where, const Vec3& d) {
     point(where, d);
@@ -56,9 +55,8 @@ void check_axis(Findings& findings, const std::string& at, Axis axis, const Axis
   const double most = is_rotary(axis) ? kLargestDeg : kLongestMm;
   findings.within(at + "/min_" + unit, setup.min, -most, most);
   findings.within(at + "/max_" + unit, setup.max, -most, most);
-  if (!(setup.min < setup.max)) {
+  if (!(setup.min < setup.max))
     findings.conflict(at + "/max_" + unit, "the upper end must be above the lower end");
-  }
   if (!is_rotary(axis)) return;
   findings.within(at + "/hirth_grid_deg", setup.hirth_grid_deg, 0, 180);
   findings.point(at + "/center_mm", setup.centre);
@@ -91,9 +89,8 @@ void check_numbers(Findings& findings, const std::string& at, const Rows& rows, 
     const int number = number_of(rows[k]);
     const std::string where = fmt::format("{}/{}/number", at, k);
     findings.within(where, number, least, 65535);
-    if (!seen.insert(number).second) {
+    if (!seen.insert(number).second)
       findings.conflict(where, fmt::format("number {} is repeated", number));
-    }
   }
 }
 
@@ -129,18 +126,16 @@ void check_tools(Findings& findings, const MachineSetup& setup) {
     findings.within(at + "/length_offset_mm", row.l_offset, -1000, 1000);
     findings.within(at + "/radius_offset_mm", row.r_offset, -1000, 1000);
     if (row.lathe) check_lathe_tool(findings, at, row);
-    if (row.lathe && radius) {
+    if (row.lathe && radius)
       findings.conflict(at + "/actual_radius_mm", "a lathe tool has actual_xl_mm in its place");
-    }
     if (xl) {
       findings.within(at + "/actual_xl_mm", *xl, -kLongestToolMm, kLongestToolMm);
       if (!row.lathe) findings.conflict(at + "/actual_xl_mm", "only a lathe tool has XL");
     }
     if (!row.is_probe()) continue;
     const auto same = [&row = row](const ProbeSetup& p) { return p.row.number == row.probe; };
-    if (std::ranges::none_of(setup.probes, same)) {
+    if (std::ranges::none_of(setup.probes, same))
       findings.conflict(at + "/probe", fmt::format("probe not found: {}", row.probe));
-    }
     constexpr double kSmallestBall = 0.01;
     if (radius.value_or(row.r + row.dr) < kSmallestBall) {
       findings.add(at + "/radius_mm",
@@ -256,9 +251,8 @@ struct CheckFeature {
         findings.conflict(where, "a surface must have one height at each X and Y");
       }
     }
-    if (places.size() == surface.points.size() && delaunay(surface.points).triangles.empty()) {
+    if (places.size() == surface.points.size() && delaunay(surface.points).triangles.empty())
       findings.add(at + "/points_mm", "a surface needs three points that are not on one line");
-    }
   }
 
  private:
@@ -280,9 +274,8 @@ void check_tool_touch_probe(Findings& findings, const ToolTouchProbeSetup& tt) {
 }
 
 void check_kinematics_options(Findings& findings, const KinematicsOptions& options) {
-  if (options.max_modification) {
+  if (options.max_modification)
     findings.within("/machine/max_modification_mm", *options.max_modification, 0, kLongestMm);
-  }
   findings.within("/machine/max_calibration_ball_deviation_mm", options.max_ball_deviation, 0,
                   kLongestMm);
 }
@@ -291,13 +284,11 @@ void check_standards(Findings& findings, const MachineSetup& setup) {
   if (const auto& ring = setup.calibration_ring) {
     const std::string at = "/machine/calibration_ring";
     CheckFeature{findings, at}(Boss{ring->centre, ring->top, ring->height, ring->diameter});
-    if (!(ring->outside() > ring->diameter && ring->outside() <= kLongestMm)) {
+    if (!(ring->outside() > ring->diameter && ring->outside() <= kLongestMm))
       findings.conflict(at + "/outer_diameter_mm", "must be more than the diameter of the hole");
-    }
   }
-  if (setup.calibration_stud) {
+  if (setup.calibration_stud)
     CheckFeature{findings, "/machine/calibration_stud"}(*setup.calibration_stud);
-  }
   if (const auto& sphere = setup.calibration_sphere) {
     findings.point("/machine/calibration_sphere/center_mm", sphere->centre);
     findings.positive("/machine/calibration_sphere/radius_mm", sphere->radius, 1000);

@@ -25,21 +25,18 @@ class ScriptedAxes final : public Axes {
 
   Position nose() const override { return nose_; }
   MachineResult<double> follow(const Path& path, const Motion& motion) override {
-    if (motion.allowance.found() != Allowance::Spent::Nothing) {
+    if (motion.allowance.found() != Allowance::Spent::Nothing)
       return make_fault(FaultKind::Interrupted);
-    }
     nose_ = path.end;
     return 1;
   }
   /// @faults ScriptExhausted; ScriptedDifferent when the recorded contact is not on this line.
   MachineResult<Position> probe(const Vec3& direction, double distance,
                                 const Motion& motion) override {
-    if (motion.allowance.found() != Allowance::Spent::Nothing) {
+    if (motion.allowance.found() != Allowance::Spent::Nothing)
       return make_fault(FaultKind::Interrupted);
-    }
-    if (next_ == contacts_.size()) {
+    if (next_ == contacts_.size())
       return make_fault(FaultKind::ScriptExhausted, "all {} are used", next_);
-    }
     const ScriptedContact& recorded = contacts_[next_++];
     if (!recorded.ball_centre) {
       nose_.linear = nose_.linear + direction * distance;

@@ -31,9 +31,8 @@ std::vector<Feature> on_table(const Setup& setup) {
   }
   features.insert(features.end(), setup.features.begin(), setup.features.end());
   if (setup.machine.calibration_stud) features.emplace_back(*setup.machine.calibration_stud);
-  if (const auto& sphere = setup.machine.calibration_sphere) {
+  if (const auto& sphere = setup.machine.calibration_sphere)
     features.emplace_back(Sphere{sphere->centre, 2 * sphere->radius});
-  }
   return features;
 }
 
@@ -52,9 +51,8 @@ std::vector<Feature> around_plate(const ToolTouchProbeSetup& tt, double tool_rad
   std::vector<Feature> features{block(grown, half), block(half, grown)};
   if (tool_radius == 0) return features;
   for (const double x : {top.x - half, top.x + half}) {
-    for (const double y : {top.y - half, top.y + half}) {
+    for (const double y : {top.y - half, top.y + half})
       features.emplace_back(Boss{{x, y}, top.z, kDown, 2 * tool_radius});
-    }
   }
   return features;
 }
@@ -180,9 +178,8 @@ MachineResult<double> SimulatedAxes::follow(const Path& path, const Motion& moti
       is_harmful && (starts_free(path, motion.tool) ? free(workpiece_) < 1
                                                     : goes_on(path, motion) && !motion.is_retract);
   const double to_fixture = free(fixtures_);
-  if (motion.allowance.found() != Allowance::Spent::Nothing) {
+  if (motion.allowance.found() != Allowance::Spent::Nothing)
     return make_fault(FaultKind::Interrupted);
-  }
   const double gone = std::min(part, to_fixture);
   nose_ = gone < 1 ? path.nose(gone) : path.end;
   if (to_fixture < part) return make_fault(FaultKind::FixtureCollision);
@@ -249,9 +246,8 @@ MachineResult<Position> SimulatedAxes::probe(const Vec3& direction, double dista
   const auto way = motion.tool.is_probe
                        ? probe_contact(direction, distance, tool, motion.allowance)
                        : plate_contact(direction, distance, tool, motion.allowance);
-  if (motion.allowance.found() != Allowance::Spent::Nothing) {
+  if (motion.allowance.found() != Allowance::Spent::Nothing)
     return make_fault(FaultKind::Interrupted);
-  }
   const bool is_missed = !way && way.error().kind == FaultKind::NoContact;
   if (way || is_missed) nose_.linear = nose_.linear + direction * (way ? *way : distance);
   if (!way) return way.error();
@@ -261,9 +257,8 @@ MachineResult<Position> SimulatedAxes::probe(const Vec3& direction, double dista
 MachineResult<double> SimulatedAxes::probe_contact(const Vec3& direction, double distance,
                                                    const RealTool& tool, Allowance& allowance) {
   const Vec3 start = ball_on_table(nose_, tool);
-  if (workpiece_.clearance(start, tool.radius) < -tolerance::kNanometre) {
+  if (workpiece_.clearance(start, tool.radius) < -tolerance::kNanometre)
     return make_fault(FaultKind::StylusDeflected);
-  }
   const Vec3 on_table = real_table(nose_.rotary).inverse().direction(direction);
   const auto touched = workpiece_.contact(start, on_table, tool.radius, distance, allowance);
   const double before = touched.value_or(distance);
@@ -282,9 +277,7 @@ MachineResult<double> SimulatedAxes::probe_contact(const Vec3& direction, double
 /// The way after which a probe reports its contact, if that is within the distance.
 MachineResult<double> SimulatedAxes::triggered(double way, double repeatability_um,
                                                double distance) {
-  if (repeatability_um != 0) {
-    way += repeatability_um * kMillimetresPerMicrometre * random_.normal();
-  }
+  if (repeatability_um != 0) way += repeatability_um * kMillimetresPerMicrometre * random_.normal();
   if (way > distance) return make_fault(FaultKind::NoContact);
   return std::max(way, 0.0);
 }

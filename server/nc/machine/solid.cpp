@@ -137,9 +137,8 @@ Solid solid_of(const Block& block) {
     if (excess.y > excess[nearest]) nearest = 1;
     if (excess.z > excess[nearest]) nearest = 2;
     Vec3 offset;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
       offset[axis] = with_sign_of(from[axis], std::max(excess[axis], 0.0));
-    }
     const double beyond_faces = std::abs(offset.x) + std::abs(offset.y) + std::abs(offset.z);
     if (beyond_faces != std::max(excess[nearest], 0.0)) return outside(offset);
     Field inside{excess[nearest], {0, 0, 0}};  // or beyond one face only
@@ -188,9 +187,8 @@ Solid solid_of(const Sphere& sphere) {
 Solid solid_of(const Surface& surface) {
   const Triangulation mesh = delaunay(surface.points);
   std::vector<Triangle> triangles;
-  for (const auto& [a, b, c] : mesh.triangles) {
+  for (const auto& [a, b, c] : mesh.triangles)
     triangles.push_back({surface.points[a], surface.points[b], surface.points[c]});
-  }
   Ground ground{TriangleTree(triangles), {}};
   for (const std::uint32_t point : mesh.hull) ground.hull.push_back(surface.points[point]);
   ground.hull.push_back(ground.hull.front());

@@ -202,9 +202,8 @@ Result<void> check_closed(const std::vector<Triangle>& triangles) {
       const std::uint32_t place = begin->place;
       const std::string edge = fmt::format("the edge from {} to {}", corner(place),
                                            corner(place - place % 3 + (place + 1) % 3));
-      if ((end - begin) % 2 == 1) {
+      if ((end - begin) % 2 == 1)
         return refused("is open: {} of triangle {} has no neighbour", edge, place / 3 + 1);
-      }
       return refused("is inverted in part: triangles {} and {} both run along {}", place / 3 + 1,
                      (begin + 1)->place / 3 + 1, edge);
     }

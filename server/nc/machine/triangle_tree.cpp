@@ -62,9 +62,8 @@ Vec3 nearest_point(const Triangle& triangle, const Vec3& at) {
   const auto inside = [&](const Vec3& from, const Vec3& to) {
     return dot(cross(to - from, at - from), normal) >= 0;
   };
-  if (inside(a, b) && inside(b, c) && inside(c, a)) {
+  if (inside(a, b) && inside(b, c) && inside(c, a))
     return at - normal * (dot(at - a, normal) / squared(normal));
-  }
   Vec3 nearest = nearest_on_segment(a, b, at);
   for (const Vec3& other : {nearest_on_segment(b, c, at), nearest_on_segment(c, a, at)}) {
     if (squared(other - at) < squared(nearest - at)) nearest = other;

@@ -224,9 +224,8 @@ void Workpiece::join(const Added& feature) {
 }
 
 Workpiece::Workpiece(const std::vector<Feature>& features) {
-  for (const Feature& feature : features) {
+  for (const Feature& feature : features)
     std::visit([this](const auto& known) { join(known); }, feature);
-  }
   std::vector<Box> boxes;
   for (Part& part : parts_) {
     part.complete();

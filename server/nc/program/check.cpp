@@ -148,9 +148,8 @@ class Walk {
 Result<std::vector<Diagnostic>> check(const ControlPath& program, const ControlDisk& disk,
                                       ProgramCache& programs, Allowance& allowance) {
   Walk walk(disk, programs, allowance);
-  if (!walk.visit_all(program)) {
+  if (!walk.visit_all(program))
     return Error{ErrorCode::ProgramUnknown, "program not found: " + program.text()};
-  }
   return walk.take();
 }
 

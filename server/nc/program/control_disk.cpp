@@ -57,22 +57,19 @@ Result<std::string> normalise(std::string_view text, std::string_view start) {
   } else if (!text.empty() && is_separator(text.front())) {
     start = {};
   }
-  if (text.find(':') != std::string_view::npos) {
+  if (text.find(':') != std::string_view::npos)
     return path_error(written, "is not on the drive TNC:");
-  }
   if (names_directory(text)) return path_error(written, "names no file");
   std::vector<std::string_view> components;
-  if (!append_components(start, components) || !append_components(text, components)) {
+  if (!append_components(start, components) || !append_components(text, components))
     return path_error(written, "leaves TNC:\\; only files below it can be used");
-  }
   std::string path(kDrive);
   for (const std::string_view component : components) {
     path += '\\';
     path += component;
   }
-  if (path.size() > kLongestPath) {
+  if (path.size() > kLongestPath)
     return path_error(written, "has more than " + std::to_string(kLongestPath) + " characters");
-  }
   return path;
 }
 
@@ -80,9 +77,8 @@ Result<std::string> normalise(std::string_view text, std::string_view start) {
 
 Result<ControlPath> ControlPath::parse(std::string_view text) {
   const std::string_view trimmed = trim(text);
-  if (!ascii_iequals(trimmed.substr(0, kDrive.size()), kDrive)) {
+  if (!ascii_iequals(trimmed.substr(0, kDrive.size()), kDrive))
     return path_error(text, "does not begin with TNC:\\");
-  }
   auto path = normalise(text, {});
   if (path.has_error()) return path.error();
   return ControlPath(std::move(*path));

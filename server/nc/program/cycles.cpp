@@ -91,9 +91,8 @@ BoundCycle bind_cycle(const klartext::Program& program, const klartext::Cycle& c
   }
   const probing::CycleDescriptor* descriptor = bound.descriptor();
   if (descriptor == nullptr) return bound;
-  for (const klartext::CycleParameter& written : program.view(cycle.parameters)) {
+  for (const klartext::CycleParameter& written : program.view(cycle.parameters))
     bound.parameters.push_back(find_parameter(*descriptor, written.parameter));
-  }
   return bound;
 }
 
@@ -118,9 +117,8 @@ std::optional<probing::ArgumentValue> literal(const klartext::Program& program,
     const bool is_inch = program.unit() == klartext::Unit::Inch;
     return *number * scale_of(parameter.unit, is_inch);
   }
-  if (const auto* text = std::get_if<klartext::Text>(&written.value)) {
+  if (const auto* text = std::get_if<klartext::Text>(&written.value))
     return std::string(program.text(*text));
-  }
   return std::nullopt;
 }
 

@@ -372,9 +372,8 @@ class BlockCheck {
       }
     }
     for (const auto& parameter : descriptor.parameters) {
-      if (std::find(given.begin(), given.end(), &parameter) == given.end()) {
+      if (std::find(given.begin(), given.end(), &parameter) == given.end())
         report_failure(probing::check(parameter, std::monostate{}), block_.written);
-      }
     }
     return known;
   }
@@ -396,12 +395,10 @@ class BlockCheck {
 
 bool has_effect(const klartext::Program& program, std::uint32_t index) {
   const auto& statement = program.blocks()[index].statement;
-  if (const auto* label = std::get_if<klartext::LabelDefinition>(&statement)) {
+  if (const auto* label = std::get_if<klartext::LabelDefinition>(&statement))
     return label->label == klartext::Label(std::uint32_t{0});
-  }
-  if (std::holds_alternative<CyclePart>(statement)) {
+  if (std::holds_alternative<CyclePart>(statement))
     return !neighbour(program, index, 1).has_value();
-  }
   if (std::holds_alternative<klartext::BlankForm>(statement))
     return may_have_blank_fault(program, program.blocks()[index]);
   return !(is_comment(program.blocks()[index]) ||

@@ -74,9 +74,8 @@ class Linker {
   void link_block(std::uint32_t index, const Block& block) {
     writer_.begin_block(index);
     check_block(program_, index, file_.diagnostics);
-    if (const auto* label = std::get_if<klartext::LabelDefinition>(&block.statement)) {
+    if (const auto* label = std::get_if<klartext::LabelDefinition>(&block.statement))
       define_label(block, label->label);
-    }
     if (!has_effect(program_, index)) {
       writer_.count_block();
       return;
@@ -270,9 +269,8 @@ class Linker {
       add_reference(FileReference::Kind::Table, *opened_, *block);
       if (file_.references.size() == before) return;
       file_.references.back().columns = path_of(cell[1]);
-      if (const auto* row = std::get_if<double>(&cell[0])) {
+      if (const auto* row = std::get_if<double>(&cell[0]))
         file_.references.back().row = std::llround(*row);
-      }
     }
   }
 
@@ -332,9 +330,8 @@ std::size_t memory_of(const LinkedParts& parts) {
   std::size_t bytes = bytes_of(parts.code) + bytes_of(parts.block_of) + bytes_of(parts.constants) +
                       bytes_of(parts.cycles) +
                       parts.numbered_labels.size() * (kNode + sizeof(std::uint64_t));
-  for (const auto& [name, at] : parts.named_labels) {
+  for (const auto& [name, at] : parts.named_labels)
     bytes += kNode + sizeof(name) + sizeof(at) + name.capacity();
-  }
   return bytes;
 }
 

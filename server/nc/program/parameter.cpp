@@ -23,9 +23,8 @@ double modulo(double a, double b) {
   if (std::abs(a) < kExact && std::abs(b) < kExact && b != 0) {
     const auto x = static_cast<std::int64_t>(a);
     const auto y = static_cast<std::int64_t>(b);
-    if (static_cast<double>(x) == a && static_cast<double>(y) == b) {
+    if (static_cast<double>(x) == a && static_cast<double>(y) == b)
       return static_cast<double>(x % y);
-    }
   }
   return std::fmod(a, b);
 }
@@ -76,9 +75,8 @@ Result<void> validate(const ParameterValue& value) {
     return Error{ErrorCode::FieldType,
                  who + (number == nullptr ? " takes a number" : " takes a text")};
   }
-  if (number != nullptr && !std::isfinite(*number)) {
+  if (number != nullptr && !std::isfinite(*number))
     return Error{ErrorCode::NumberOutOfRange, who + " must be a finite number"};
-  }
   if (number == nullptr &&
       tabfile::count_characters(std::get<std::string>(value.value)) > kLongestString) {
     return Error{ErrorCode::FieldTooLong, who + " has more than 255 characters"};

@@ -89,9 +89,8 @@ std::vector<Place> CallStack::behind_calls() const {
 }
 
 NcResult<void> CallStack::call_label(std::uint32_t return_to) {
-  if (label_returns_.size() >= label_depth_) {
+  if (label_returns_.size() >= label_depth_)
     return nc_error(1025, "more than {} subprograms call each other", label_depth_);
-  }
   label_returns_.push_back(return_to);
   return {};
 }
@@ -105,9 +104,8 @@ std::optional<std::uint32_t> CallStack::return_from_label() {
 
 NcResult<void> CallStack::call_program(std::shared_ptr<const LinkedProgram> program,
                                        Caller caller) {
-  if (programs_.size() > program_depth_) {
+  if (programs_.size() > program_depth_)
     return nc_error(1025, "more than {} programs call each other", program_depth_);
-  }
   programs_.push_back({std::move(program), std::move(caller), label_returns_.size()});
   return {};
 }

@@ -58,9 +58,8 @@ void Contour::compensate(klartext::RadiusCompensation compensation) {
 
 machine::Position Contour::position(const machine::Machine& machine) const {
   machine::Position position = drawing_ ? drawing_->position() : machine.position();
-  if (beside_ && (cutter_.is_pending() || position == beside_->tool)) {
+  if (beside_ && (cutter_.is_pending() || position == beside_->tool))
     position = beside_->programmed;
-  }
   const Element* last = approach_ ? &approach_->to_start : kept_ ? &*kept_ : nullptr;
   return last != nullptr ? moved(position, last->target) : position;
 }
@@ -88,9 +87,8 @@ NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
 /// LN with DR: the tool is offset from the programmed path until a block without a normal.
 NcResult<void> Contour::move_shifted(machine::Machine& machine, Element element) {
   const machine::Position programmed = moved(position(machine), element.target);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
     element.target.values[axis] = programmed.linear[axis] + element.shift[axis];
-  }
   TRY(move(machine, element));
   beside_ = Beside{programmed, machine.position()};
   is_shifted_ = element.shift != Vec3{};
@@ -145,9 +143,8 @@ NcResult<void> Contour::turn_corner(machine::Machine& machine, Element& next) {
   const auto between = !(before.plane == next.plane) ? std::nullopt
                        : corner->is_chamfer ? chamfer(before.curve, next.curve, corner->size)
                                             : rounding(before.curve, next.curve, corner->size);
-  if (!between) {
+  if (!between)
     return nc_error(corner->is_chamfer ? 1022 : 1023, "it does not fit between the two blocks");
-  }
   before.curve.end = between->start;
   set_sweep(before.curve);
   set_plane_target(before, between->start);
@@ -170,9 +167,8 @@ NcResult<void> Contour::add(machine::Machine& machine, Approach approach) {
 /// Moves the centre of the tool to the begin of the contour, which `next` continues.
 NcResult<void> Contour::approach(machine::Machine& machine, const Element& next) {
   const auto contour_direction = next.curve.start_direction();
-  if (!contour_direction) {
+  if (!contour_direction)
     return nc_error(1024, "the contour after APPR does not begin in the working plane");
-  }
   const Approach approach = *std::exchange(approach_, std::nullopt);
   const int side = approach.to_start.side;
   const double left = side < 0 ? -1 : 1;
@@ -228,9 +224,8 @@ NcResult<void> Contour::finish(machine::Machine& machine) {
   }
   if (kept_) {
     const Element last = *std::exchange(kept_, std::nullopt);
-    if (std::exchange(corner_, std::nullopt)) {
+    if (std::exchange(corner_, std::nullopt))
       return nc_error(1022, "RND or CHF must be followed by a contour element");
-    }
     TRY(cut(machine, last));
   }
   if (!cutter_.is_pending()) return {};

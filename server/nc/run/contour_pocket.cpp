@@ -42,9 +42,8 @@ bool encloses(const SlContour& contour, Vec2 point) {
     const double radius = norm(curve.start - *curve.centre);
     const double beside = cross(b - a, a * -1) * curve.sweep_deg;
     const bool is_circle = norm(b - a) < tolerance::kSamePoint;
-    if (norm(point - *curve.centre) < radius && (is_circle || beside < 0)) {
+    if (norm(point - *curve.centre) < radius && (is_circle || beside < 0))
       turns += curve.sweep_deg > 0 ? 1 : -1;
-    }
   }
   return std::abs(turns) > 0.5;
 }
@@ -322,9 +321,8 @@ class ContourCycle {
 }  // namespace
 
 NcResult<void> mill_contours(Channel& channel, Machining& cycle) {
-  if (!channel.active_cycle.contour_data || channel.active_cycle.contours.empty()) {
+  if (!channel.active_cycle.contour_data || channel.active_cycle.contours.empty())
     return nc_error(1017, "cycles 14 CONTOUR and 20 CONTOUR DATA must be before it");
-  }
   return ContourCycle(channel, cycle).run();
 }
 

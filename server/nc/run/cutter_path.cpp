@@ -60,9 +60,8 @@ class VectorPath {
       return {};
     }
     const auto rotary = rotary_along(state_, tool, middle.rotary);
-    if (!rotary) {
+    if (!rotary)
       return nc_error(1013, "PATHCTRL VECTOR: an axis does not reach a direction between the ends");
-    }
     middle.rotary = *rotary;
     TRY(split(begin, middle, halvings + 1));
     return split(middle, end, halvings + 1);
@@ -98,9 +97,7 @@ double CutterPath::radius(const machine::Machine& machine) {
 }
 
 NcResult<void> CutterPath::move(machine::Machine& machine, const Element& element) {
-  if (!element.curve.is_arc()) {
-    return machine.move({element.target, element.feed, element.system});
-  }
+  if (!element.curve.is_arc()) return machine.move({element.target, element.feed, element.system});
   const WorkingPlane& plane = element.plane;
   TRY(check_scaling(machine.state(), plane, "an arc is"));
   machine::Vec3 end = plane.with(machine.position().linear, element.curve.end);
@@ -130,9 +127,8 @@ NcResult<void> CutterPath::add(machine::Machine& machine, const Element& next) {
     return move(machine, beside);
   }
   if (next.side != side_) {
-    if (next.side != 0 && side_ != 0) {
+    if (next.side != 0 && side_ != 0)
       return nc_error(1021, "a block between RL and RR moves in the plane with R0: write RL or RR");
-    }
     TRY(finish(machine));
     side_ = next.side;
     if (side_ != 0) return enter(machine, next);
@@ -154,9 +150,8 @@ NcResult<void> CutterPath::enter(machine::Machine& machine, const Element& next)
 NcResult<void> CutterPath::join(machine::Machine& machine, const Element& next) {
   const double distance = side_ * reach(machine);
   const auto leaving = next.curve.start_direction();  // the element moves in the plane
-  if (const auto offset = offset_curve(next.curve, distance); !offset) {
+  if (const auto offset = offset_curve(next.curve, distance); !offset)
     return too_large(reach(machine), next.curve.end, "arc");
-  }
   const Vec2 corner = next.curve.start;
   Vec2 begin = corner + left_of(*leaving) * distance;
   if (begun_) {
@@ -175,9 +170,8 @@ NcResult<void> CutterPath::join(machine::Machine& machine, const Element& next) 
         std::abs(turn) < tolerance::kSameDirection && dot(arriving, *leaving) > 0;
     if (!is_straight && turn * distance > 0) {
       const auto met = inner_corner(last_->curve, next.curve, distance);
-      if (!met || !goes_forward(last_->curve, at_, *met)) {
+      if (!met || !goes_forward(last_->curve, at_, *met))
         return too_large(reach(machine), corner, "corner");
-      }
       begin = *met;
       TRY(move_to(machine, begin));
     } else {
@@ -202,9 +196,8 @@ NcResult<void> CutterPath::join(machine::Machine& machine, const Element& next) 
 NcResult<void> CutterPath::move_to(machine::Machine& machine, Vec2 end) {
   Element element = *std::exchange(last_, std::nullopt);
   if (!is_entry_) {
-    if (!goes_forward(element.curve, at_, end)) {
+    if (!goes_forward(element.curve, at_, end))
       return too_large(reach(machine), element.curve.end, "corner");
-    }
     element.curve.start = at_;
     element.curve.end = end;
     if (element.curve.is_arc()) {

@@ -149,9 +149,8 @@ NcResult<void> define_globally(Channel& channel, const klartext::Cycle& cycle,
                                const BoundCycle& bound) {
   auto arguments = TRY(arguments_of(channel, cycle, bound));
   TRY(arguments.complete());
-  for (const probing::CycleParameter& parameter : bound.global->parameters) {
+  for (const probing::CycleParameter& parameter : bound.global->parameters)
     channel.predefined[static_cast<int>(parameter.id)] = arguments.number(parameter.id);
-  }
   return {};
 }
 
@@ -175,9 +174,8 @@ NcResult<void> define(Channel& channel, MachiningDefinition definition) {
 
 /// A cycle that only the builder of the machine knows.
 NcResult<Next> run_builders(Channel& channel, klartext::CycleFamily family, int number) {
-  if (family == klartext::CycleFamily::GlobalDef) {
+  if (family == klartext::CycleFamily::GlobalDef)
     return nc_error("cycle GLOBAL DEF {} is not available", number);
-  }
   const BuilderAction* action = channel.options.builder.cycle(number);
   if (action == nullptr)
     return nc_error(cycle_hint(family == klartext::CycleFamily::TchProbe, number));
@@ -216,9 +214,8 @@ NcResult<Next> execute(Channel& channel, const klartext::Cycle& cycle, const Bou
 
 NcResult<Next> execute_parts(Channel& channel, std::uint32_t first, std::uint32_t last) {
   const auto& opening = std::get<klartext::CyclePart>(channel.program().blocks()[first].statement);
-  if (!is_available(opening.family, opening.number, true)) {
+  if (!is_available(opening.family, opening.number, true))
     return run_builders(channel, opening.family, opening.number);
-  }
   if (const auto* probing = probing_cycle(opening.family, opening.number)) {
     auto arguments = TRY(dotted_arguments(channel, *probing, first, last));
     TRY(run_probing(channel, *probing, std::move(arguments)));
@@ -270,9 +267,8 @@ NcResult<Next> call_at_position(Channel& channel, const MotionWords& words) {
 
 NcResult<Next> call_active_cycle(Channel& channel) {
   const auto& definition = channel.active_cycle.definition;
-  if (const auto* program = std::get_if<ControlPath>(&definition)) {
+  if (const auto* program = std::get_if<ControlPath>(&definition))
     return call_program(channel, *program);
-  }
   if (std::holds_alternative<IgnoredCycle>(definition)) return Next{};
   const auto* machining = std::get_if<MachiningDefinition>(&definition);
   if (machining == nullptr) return nc_error(1027);

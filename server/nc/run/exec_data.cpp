@@ -27,9 +27,8 @@ using klartext::QRef;
 /// The parameter `count` places after `first`. @errors beyond the last one.
 NcResult<QRef> after(QRef first, std::size_t count) {
   const std::size_t place = first.number + count;
-  if (place >= parameter_count(first.space)) {
+  if (place >= parameter_count(first.space))
     return nc_error("there is no parameter {} places after {}", count, name(first));
-  }
   return QRef{first.space, static_cast<std::uint16_t>(place)};
 }
 
@@ -159,9 +158,8 @@ NcResult<void> execute(Channel& channel, const klartext::SelectProgram& select) 
 }
 
 NcResult<Next> execute(Channel& channel, const klartext::CallSelectedProgram&) {
-  if (!channel.selected_program) {
+  if (!channel.selected_program)
     return nc_error("CALL SELECTED PGM needs a program selected by SEL PGM before it");
-  }
   return call_program(channel, *channel.selected_program);
 }
 

@@ -27,9 +27,8 @@ NcResult<void> read_written_tools(Channel& channel) {
     const machine::Tool* found = channel.state().tools.find(number);
     machine::Tool tool = found != nullptr ? *found : machine::Tool{};
     tool.number = number;
-    if (set_tool_value(tool, nr, value) == ToolWrite::OutOfRange) {
+    if (set_tool_value(tool, nr, value) == ToolWrite::OutOfRange)
       return nc_error(1093, "tool {}: tool.t holds {} in a column of whole numbers", number, value);
-    }
     TRY(note_lathe_value(channel, tool, nr));
     TRY(channel.machine().write_tool(tool));
   }
@@ -64,9 +63,8 @@ NcResult<void> note_lathe_tool(Channel& channel) {
 }  // namespace
 
 NcResult<void> execute(Channel& channel, const klartext::ToolCall& call) {
-  if (call.axis && *call.axis > klartext::Axis::Z) {
+  if (call.axis && *call.axis > klartext::Axis::Z)
     return nc_error(1079, "the tool axis is X, Y or Z");
-  }
   TRY(read_written_tools(channel));
   machine::ToolCall command;
   command.axis = tool_axis(call.axis);

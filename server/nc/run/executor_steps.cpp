@@ -74,9 +74,8 @@ const Instruction* ExecutorSteps::jump_when(const Instruction* pc) {
 }
 
 const Instruction* ExecutorSteps::call_label(std::uint32_t target, const Instruction* pc) {
-  if (auto called = channel_.calls.call_label(index_of(pc + 1)); !called) {
+  if (auto called = channel_.calls.call_label(index_of(pc + 1)); !called)
     return fail(called.error());
-  }
   return code_ + target;
 }
 

@@ -62,9 +62,7 @@ std::string integer_text(double value, const MaskPlaceholder& placeholder) {
 
 NcResult<std::string> character_text(double value, const MaskPlaceholder& placeholder) {
   // Codes beyond Latin-1 are not in the code page of a control.
-  if (value < 1 || value > 255) {
-    return nc_error("%C: {} is not a character code", value);
-  }
+  if (value < 1 || value > 255) return nc_error("%C: {} is not a character code", value);
   const auto code = static_cast<unsigned>(value);
   std::string text;
   if (code < 0x80) {
@@ -77,9 +75,8 @@ NcResult<std::string> character_text(double value, const MaskPlaceholder& placeh
 }
 
 std::string string_text(std::string text, const MaskPlaceholder& placeholder) {
-  if (placeholder.decimals >= 0) {
+  if (placeholder.decimals >= 0)
     text.resize(tabfile::skip_characters(text, 0, static_cast<std::size_t>(placeholder.decimals)));
-  }
   return padded(std::move(text), placeholder, false);
 }
 
@@ -103,9 +100,8 @@ bool is_empty(const Channel& channel, QRef parameter) {
 /// The value of a placeholder; nothing if its line is left out.
 NcResult<std::optional<Value>> value_of(Channel& channel, const MaskPlaceholder& placeholder,
                                         EmptyLines empty) {
-  if (const auto* keyword = std::get_if<MaskKeyword>(&placeholder.value)) {
+  if (const auto* keyword = std::get_if<MaskKeyword>(&placeholder.value))
     return std::optional(keyword_value(channel, *keyword));
-  }
   const QRef parameter = std::get<QRef>(placeholder.value);
   if (empty != EmptyLines::Unspecified && is_empty(channel, parameter)) {
     if (empty == EmptyLines::Hide) return std::optional<Value>();
@@ -131,9 +127,8 @@ NcResult<std::shared_ptr<const klartext::MaskFile>> FormattedPrinter::mask(
     auto parsed = klartext::parse_mask(*file->bytes, file->path.text());
     const auto error = std::ranges::find(parsed.diagnostics, klartext::Severity::Error,
                                          &klartext::Diagnostic::severity);
-    if (error != parsed.diagnostics.end()) {
+    if (error != parsed.diagnostics.end())
       return nc_error("mask {} line {}: {}", path.text(), error->range.begin.line, error->message);
-    }
     known = {file->revision, std::make_shared<const klartext::MaskFile>(std::move(parsed.mask))};
   }
   return known.mask;

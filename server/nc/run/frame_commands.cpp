@@ -70,9 +70,8 @@ NcResult<std::optional<Vec3>> rotary_positions(Channel& channel, const Frames& f
   }
   const bool turns =
       moves.positioning == PlanePositioning::Turn || moves.positioning == PlanePositioning::Move;
-  if (turns || !state.kinematics.axes().empty()) {
+  if (turns || !state.kinematics.axes().empty())
     return nc_error(1013, "no position of the rotary axes reaches the plane");
-  }
   TRY(channel.note(
       "the machine of the setup has no rotary axes: the coordinates tilt, the tool does not"));
   return std::optional<Vec3>();
@@ -98,9 +97,8 @@ NcResult<void> turn(Channel& channel, const Vec3& rotary, const PlaneMoves& move
   const Vec3 shown =
       machine.state().frames.rotary_from_machine(rotary, machine::CoordinateSystem::Input);
   machine::AxisWords target;
-  for (const machine::RotaryAxis& axis : machine.state().kinematics.axes()) {
+  for (const machine::RotaryAxis& axis : machine.state().kinematics.axes())
     target[axis.axis] = shown[machine::index(axis.axis) - 3];
-  }
   if (during.tcpm && moves.distance != 0) {
     const machine::MachineState& state = machine.state();
     const Vec3 swing = tool_at(state, rotary) - tool_at(state, state.nose.rotary);
@@ -169,9 +167,7 @@ NcResult<void> rotate(Channel& channel, const Coordinate& angle) {
 
 NcResult<void> scale(Channel& channel, const machine::Scaling& scaling) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (scaling.factor[axis] <= 0) {
-      return nc_error(1011, "scaling factor {}", scaling.factor[axis]);
-    }
+    if (scaling.factor[axis] <= 0) return nc_error(1011, "scaling factor {}", scaling.factor[axis]);
   }
   return change_frames(channel, [&](Frames& frames) { frames.set_scaling(scaling); });
 }

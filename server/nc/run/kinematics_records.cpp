@@ -40,9 +40,8 @@ class RecordReader {
       if (!wrong_.empty()) return broken(fmt::format("row {}: {}", row, wrong_));
     }
     probing::KinematicsRecords records;
-    for (auto& [name, record] : found_) {
+    for (auto& [name, record] : found_)
       records.emplace(name, Kinematics(std::move(record.axes), record.offset));
-    }
     return records;
   }
 
@@ -105,9 +104,8 @@ TabTable empty_table() {
                                           {.name = "NAME", .width = kName},
                                           {.name = "AXIS", .width = kWord},
                                           {.name = "ON", .width = kWord}};
-  for (const char* name : {"X", "Y", "Z", "I", "J", "K"}) {
+  for (const char* name : {"X", "Y", "Z", "I", "J", "K"})
     columns.push_back({.name = name, .width = kNumber});
-  }
   columns.push_back({.name = std::string(kZero), .width = kNumber});
   return TabTable({.name = "DATA450 .KD", .unit = "MM", .form = tabfile::HeaderForm::None},
                   std::move(columns));

@@ -39,9 +39,8 @@ double room(const machine::MachineState& state, const machine::Vec3& direction) 
 }  // namespace
 
 NcResult<void> retract(Channel& channel, const MCall& call) {
-  if (!call.to_limit && call.length.value_or(-1) < 0) {
+  if (!call.to_limit && call.length.value_or(-1) < 0)
     return nc_error(1011, "a retraction needs MB with a length, or MB MAX");
-  }
   const machine::MachineState& state = channel.state();
   const machine::Vec3 direction = state.tool_direction(machine::CoordinateSystem::Reference);
   const double length = call.to_limit ? room(state, direction) : call.length.value_or(0);

@@ -114,20 +114,17 @@ class DottedReader {
 
   NcResult<void> read_result(const Word& word, int part) {
     const auto* parameter = std::get_if<klartext::QRef>(&word.value);
-    if (parameter == nullptr || parameter->space != klartext::QSpace::Q) {
+    if (parameter == nullptr || parameter->space != klartext::QSpace::Q)
       return nc_error("the result of a touch-probe cycle must be a Q parameter");
-    }
-    if (find(ParameterId::WordResult, part) != nullptr) {
+    if (find(ParameterId::WordResult, part) != nullptr)
       arguments_.set(ParameterId::WordResult, static_cast<double>(parameter->number));
-    }
     return {};
   }
 
   /// The name of the probing axis (`X-`, `X ANGLE`), or a coordinate.
   NcResult<void> read_axis(const Word& word, int part) {
-    if (word.letter > Letter::Z) {
+    if (word.letter > Letter::Z)
       return nc_error("a touch-probe cycle accepts only the axes X, Y and Z");
-    }
     const auto axis = static_cast<int>(word.letter);
     if (find(ParameterId::WordAxis, part) != nullptr) {
       arguments_.set(ParameterId::WordAxis, static_cast<double>(axis));

@@ -23,22 +23,18 @@ int teeth(const Channel& channel) {
 }  // namespace
 
 NcResult<machine::Feed> read_feed(Channel& channel, const Word& word) {
-  if (word.letter == Letter::Ft || word.letter == Letter::FMaxT) {
+  if (word.letter == Letter::Ft || word.letter == Letter::FMaxT)
     return nc_error("FT and FMAXT, the time of a block, are not available: give the feed F");
-  }
   if (word.letter == Letter::FMax) return machine::Feed::rapid();
   if (word.letter == Letter::FAuto) return machine::Feed::at(channel.contour.tool_feed);
   const auto value = TRY(number(channel, word.value));
   const double unit = channel.length_unit();
-  if (word.letter == Letter::Fu) {
+  if (word.letter == Letter::Fu)
     return machine::Feed::at(feed_of_revolutions(channel, value * unit));
-  }
-  if (word.letter == Letter::Fz) {
+  if (word.letter == Letter::Fz)
     return machine::Feed::at(feed_of_revolutions(channel, value * unit * teeth(channel)));
-  }
-  if (channel.contour.feed_per_revolution) {
+  if (channel.contour.feed_per_revolution)
     return machine::Feed::at(feed_of_revolutions(channel, value * unit));
-  }
   // In INCH programs F counts tenths of an inch a minute.
   return machine::Feed::at(channel.linked().is_inch() ? value * unit / 10 : value);
 }
@@ -49,9 +45,8 @@ NcResult<void> read_coordinate(Channel& channel, const Word& word, double unit,
                                std::optional<Coordinate>& target) {
   if (is_absent(word.value)) return {};
   const auto value = TRY(coordinate(channel, word.value));
-  if (!value) {
+  if (!value)
     return channel.note("{} is left out: its parameter is undefined", spelling(word.letter));
-  }
   target = Coordinate{*value * unit, word.incremental};
   return {};
 }
@@ -90,9 +85,8 @@ NcResult<void> read_argument(Channel& channel, const Word& word, std::vector<MCa
     retraction.to_limit = true;
     return {};
   }
-  if (word.letter == Letter::Mb) {
+  if (word.letter == Letter::Mb)
     return read_number(channel, word, channel.length_unit(), retraction.length);
-  }
   retraction.feed = TRY(read_feed(channel, word));
   return {};
 }

@@ -18,9 +18,8 @@ std::vector<Vec2> circle_points(const MachiningDefinition& pattern) {
   }
   const Vec2 centre{pattern.value(216), pattern.value(217)};
   std::vector<Vec2> points;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < count; ++i)
     points.push_back(centre + polar(pattern.value(244) / 2, begin + i * step));
-  }
   return points;
 }
 
@@ -110,9 +109,8 @@ void add_circle(const PatternPart& element, std::vector<Vec2>& points) {
   const int count = element.count(Letter::Num);
   const double step =
       element.kind == PatternElement::Circ ? 360.0 / std::max(count, 1) : element.get(Letter::Step);
-  for (int i = 0; i < count && points.size() <= kMostPatternPoints; ++i) {
+  for (int i = 0; i < count && points.size() <= kMostPatternPoints; ++i)
     points.push_back(polar(element.get(Letter::D) / 2, element.get(Letter::Start) + i * step));
-  }
 }
 
 /// Relative to X, Y of the element.
@@ -122,9 +120,8 @@ std::vector<Vec2> points_of(const PatternPart& element) {
     case PatternElement::Pos: points.push_back({}); break;
     case PatternElement::Row: {
       const Vec2 step = turned({element.get(Letter::D), 0}, element.get(Letter::Rot));
-      for (int i = 0; i < element.count(Letter::Num) && points.size() <= kMostPatternPoints; ++i) {
+      for (int i = 0; i < element.count(Letter::Num) && points.size() <= kMostPatternPoints; ++i)
         points.push_back(step * i);
-      }
       break;
     }
     case PatternElement::Pat:
@@ -143,9 +140,8 @@ NcResult<void> execute(Channel& channel, const klartext::PatternDefinition& patt
   for (const PatternPart& element : elements) {
     const Vec2 start{element.get(Letter::X), element.get(Letter::Y)};
     for (const Vec2 point : points_of(element)) {
-      if (all.size() == kMostPatternPoints) {
+      if (all.size() == kMostPatternPoints)
         return nc_error(1015, "PATTERN DEF has more than 10000 points");
-      }
       all.push_back({start.x + point.x, start.y + point.y, element.get(Letter::Z)});
     }
   }
@@ -187,9 +183,8 @@ NcResult<void> run_pattern(Channel& channel, const MachiningDefinition& pattern)
 NcResult<void> run_points(Channel& channel) {
   const auto* active = std::get_if<MachiningDefinition>(&channel.active_cycle.definition);
   if (active == nullptr) return nc_error(1027);
-  if (channel.active_cycle.pattern.empty()) {
+  if (channel.active_cycle.pattern.empty())
     return nc_error(1017, "CYCL CALL PAT needs a PATTERN DEF before it");
-  }
   const auto points = channel.active_cycle.pattern;
   ToolMotion motion(channel.machine(), channel.budget);
   for (const machine::Vec3& point : points) {

@@ -162,9 +162,8 @@ std::optional<Curve> rounding(const Curve& before, const Curve& after, double ra
   for (const Vec2 centre : centres) {
     const Vec2 first = touch(before, centre);
     const Vec2 last = touch(after, centre);
-    if (is_on(before, first) && is_on(after, last)) {
+    if (is_on(before, first) && is_on(after, last))
       return Curve{first, last, centre, sweep(first, last, centre, left_turn)};
-    }
   }
   return std::nullopt;
 }
@@ -204,9 +203,8 @@ std::optional<Curve> chamfer(const Curve& before, const Curve& after, double sid
   if (!arriving || !leaving) return std::nullopt;
   if (norm(*arriving + *leaving) < tolerance::kParallel)
     return std::nullopt;  // back along the same line
-  if (side > norm(before.end - before.start) || side > norm(after.end - after.start)) {
+  if (side > norm(before.end - before.start) || side > norm(after.end - after.start))
     return std::nullopt;
-  }
   return Curve{before.end - *arriving * side, before.end + *leaving * side};
 }
 

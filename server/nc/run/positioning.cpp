@@ -223,9 +223,8 @@ class Positioning {
       const machine::Vec3 rotary =
           state.frames.rotary_from_machine(stop.rotary, CoordinateSystem::Input);
       for (std::size_t axis = 0; axis < 3; ++axis) piece.target.values[axis] = point[axis];
-      for (const machine::RotaryAxis& axis : state.kinematics.axes()) {
+      for (const machine::RotaryAxis& axis : state.kinematics.axes())
         piece.target[axis.axis] = rotary[machine::index(axis.axis) - 3];
-      }
       piece.curve.end = plane_.project(point);
       piece.shift = shifted + (line.shift - shifted) * stop.part;
       if (is_last) break;

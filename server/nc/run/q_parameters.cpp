@@ -16,9 +16,8 @@ std::optional<double> QParameters::number(QRef parameter) const {
 }
 
 NcResult<void> QParameters::set(QRef parameter, double value) {
-  if (!std::isfinite(value)) {
+  if (!std::isfinite(value))
     return nc_error("the value for {} is not a finite number", name(parameter));
-  }
   cells_[cell_of(parameter)] = value;
   return {};
 }

@@ -58,9 +58,7 @@ const klartext::Block& Place::source() const { return program->program().blocks(
 std::uint32_t Place::line() const { return program->program().range(source().written).begin.line; }
 
 NcResult<void> OutputBudget::charge(std::size_t bytes) {
-  if (bytes > left_) {
-    return limit_error("the run has written more than {} bytes", total_);
-  }
+  if (bytes > left_) return limit_error("the run has written more than {} bytes", total_);
   left_ -= bytes;
   return {};
 }
@@ -131,9 +129,8 @@ NcResult<std::int64_t> RunBudget::refuel(std::int64_t left, std::int64_t needed)
   give_back(left);
   TRY(check());
   const auto remaining = static_cast<std::int64_t>(limits_.blocks - granted_);
-  if (needed > remaining) {
+  if (needed > remaining)
     return limit_error("the run has executed its limit of {} blocks", limits_.blocks);
-  }
   const std::int64_t portion = std::min(remaining, std::max(needed, kPortion));
   granted_ += static_cast<std::uint64_t>(portion);
   return portion;
@@ -173,9 +170,8 @@ bool RunFiles::has_directory(std::string_view directory) const {
 NcResult<void> RunFiles::reserve(const ControlPath& path) {
   const std::string key = path.key();
   if (reserved_.contains(key)) return {};
-  if (reserved_.size() >= most_files_) {
+  if (reserved_.size() >= most_files_)
     return limit_error("the run has written more than {} files", most_files_);
-  }
   reserved_.insert(key);
   return {};
 }

@@ -113,14 +113,11 @@ NcResult<SlContour> read_contour(Channel& channel, const klartext::Label& label)
   if (!curves.empty()) {
     const Vec2 first = curves.front().start;
     const Vec2 last = curves.back().end;
-    if (norm(first - last) > tolerance::kNanometre) {
-      curves.push_back({last, first});
-    }
+    if (norm(first - last) > tolerance::kNanometre) curves.push_back({last, first});
   }
   const double enclosed = area(curves);
-  if (std::abs(enclosed) < tolerance::kSamePoint) {
+  if (std::abs(enclosed) < tolerance::kSamePoint)
     return nc_error(1024, "contour label {} encloses nothing", std::get<std::uint32_t>(label));
-  }
   contour.is_pocket = drawing.side() * enclosed >= 0;
   return contour;
 }
@@ -146,9 +143,8 @@ machine::Position SlDrawing::position() const {
 
 NcResult<void> SlDrawing::add(const Element& element) {
   const WorkingPlane& plane = element.plane;
-  if (!(plane == WorkingPlane::across(machine_->state().tool_axis()))) {
+  if (!(plane == WorkingPlane::across(machine_->state().tool_axis())))
     return nc_error("the contour of an SL cycle must be in the working plane");
-  }
   const machine::Frames& now = machine_->state().frames;
   const machine::Vec3 from = now.from_machine(at_);
   const auto mapped = [&](Vec2 point) {

@@ -55,15 +55,13 @@ NcResult<Next> execute_statement(Channel& channel, const Instruction& instructio
   const klartext::Statement& statement = channel.place().source().statement;
   if (!std::holds_alternative<klartext::Motion>(statement)) {
     TRY(channel.contour.finish(channel.machine()));
-    if (channel.contour.drawing() != nullptr && !may_stand_in_contour(statement)) {
+    if (channel.contour.drawing() != nullptr && !may_stand_in_contour(statement))
       return nc_error("this block is not allowed in the contour of an SL cycle");
-    }
   }
   auto next =
       std::visit([&](const auto& kind) { return dispatch(channel, instruction, kind); }, statement);
-  if (next && channel.stop_after_block) {
+  if (next && channel.stop_after_block)
     return NcError{FaultKind::Stop, 0, "measuring log shown on the screen"};
-  }
   return next;
 }
 

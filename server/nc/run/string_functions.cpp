@@ -47,9 +47,7 @@ NcResult<std::string> sub_string(Channel& channel, Operands operands) {
   if (!is_absent(operands[1])) begin = TRY(count(channel, operands[1]));
   if (!is_absent(operands[2])) length = TRY(count(channel, operands[2]));
   const std::size_t size = tabfile::count_characters(source);
-  if (begin > size) {
-    return nc_error(1011, "SUBSTR begins at character {} of {}", begin, size);
-  }
+  if (begin > size) return nc_error(1011, "SUBSTR begins at character {} of {}", begin, size);
   const std::size_t first = tabfile::skip_characters(source, 0, begin);
   const std::size_t last = tabfile::skip_characters(source, first, length);
   return source.substr(first, last - first);
@@ -80,9 +78,8 @@ NcResult<double> to_number(std::string source) {
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value,
                                             std::chars_format::fixed);
-  if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value)) {
+  if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
     return nc_error("TONUMB: '{}' is not a number", source);
-  }
   return value;
 }
 

@@ -22,12 +22,10 @@ NcResult<std::vector<ColumnTarget>> targets(std::string_view columns, QRef first
   while (true) {
     const std::size_t end = columns.find(',');
     const std::size_t place = first.number + targets.size();
-    if (targets.size() == kMostColumns) {
+    if (targets.size() == kMostColumns)
       return nc_error("more than {} columns are named", kMostColumns);
-    }
-    if (place >= parameter_count(first.space)) {
+    if (place >= parameter_count(first.space))
       return nc_error("there are not enough parameters after {}", name(first));
-    }
     targets.push_back(
         {trim(columns.substr(0, end)), {first.space, static_cast<std::uint16_t>(place)}});
     if (end == std::string_view::npos) return targets;
@@ -64,9 +62,8 @@ NcResult<TableAccess::Table> TableAccess::load(const ControlPath& path, std::str
     known = {file->revision, file->table};
     if (known.content == nullptr) {
       auto read = tabfile::read_tab_file(*file->bytes, allowance_);
-      if (read.has_error()) {
+      if (read.has_error())
         return nc_error("{} {} cannot be read: {}", what, path.text(), read.error().message);
-      }
       known.content = std::make_shared<const TabTable>(*std::move(read));
     }
   }
@@ -150,9 +147,7 @@ NcResult<void> TableAccess::select_datum_table(const ControlPath& path) {
 NcResult<machine::AxisWords> TableAccess::datum(std::int64_t row) const {
   if (!datum_) return nc_error(1043, "write SEL TABLE before this block");
   const auto found = datum_->content->find_row(row);
-  if (!found) {
-    return nc_error("datum table {}: {}", datum_->path.text(), found.error().message);
-  }
+  if (!found) return nc_error("datum table {}: {}", datum_->path.text(), found.error().message);
   machine::AxisWords values;
   for (const machine::Axis axis : machine::kAllAxes) {
     const auto value = datum_->content->number(row, kAxisColumns[machine::index(axis)]);
@@ -167,9 +162,7 @@ NcResult<void> TableAccess::write_datum(std::int64_t row, const machine::AxisWor
     if (!values[axis]) continue;
     const auto set =
         editable(*datum_).set_number(row, kAxisColumns[machine::index(axis)], *values[axis]);
-    if (!set) {
-      return nc_error("datum table {}: {}", datum_->path.text(), set.error().message);
-    }
+    if (!set) return nc_error("datum table {}: {}", datum_->path.text(), set.error().message);
   }
   return save(datum_);
 }

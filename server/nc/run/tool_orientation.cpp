@@ -13,9 +13,8 @@ std::optional<double> nearest_turn(double angle, double from, const machine::Axi
   const double whole = angle + 360 * std::round((from - angle) / 360);
   std::optional<double> nearest;
   for (const double turned : {whole, whole - 360, whole + 360}) {
-    if (turned < range.min - tolerance::kSameAngle || turned > range.max + tolerance::kSameAngle) {
+    if (turned < range.min - tolerance::kSameAngle || turned > range.max + tolerance::kSameAngle)
       continue;
-    }
     if (!nearest || std::abs(turned - from) < std::abs(*nearest - from)) nearest = turned;
   }
   return nearest;
@@ -36,9 +35,8 @@ NcResult<void> stand_along(Channel& channel, const Vec3& direction, MotionWords&
   }
   const Vec3 shown = state.frames.rotary_from_machine(*rotary, CoordinateSystem::Input);
   for (std::size_t letter = 0; letter < 3; ++letter) words.axes[letter + 3].reset();
-  for (const RotaryAxis& axis : state.kinematics.axes()) {
+  for (const RotaryAxis& axis : state.kinematics.axes())
     words.axes[machine::index(axis.axis)] = {shown[machine::index(axis.axis) - 3], false};
-  }
   return {};
 }
 

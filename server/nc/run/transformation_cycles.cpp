@@ -21,9 +21,8 @@ NcResult<double> value(Channel& channel, Words words, Letter letter, double othe
 }
 
 NcResult<void> datum_shift(Channel& channel, Words words) {
-  if (const Word* row = find(words, Letter::Row)) {
+  if (const Word* row = find(words, Letter::Row))
     return shift_datum_to_row(channel, TRY(whole(channel, row->value)));
-  }
   return shift_datum(channel, TRY(read_axis_words(channel, words)));
 }
 
@@ -78,9 +77,8 @@ NcResult<void> working_plane_cycle(Channel& channel, Words words) {
       return nc_error("cycle 19 takes no I: write the angles themselves");
     if (word) angles[i] = word->value;
   }
-  if (find(words, Letter::F) != nullptr || find(words, Letter::Value) != nullptr) {
+  if (find(words, Letter::F) != nullptr || find(words, Letter::Value) != nullptr)
     TRY(channel.note("cycle 19: F and ABST have no effect, because the program turns the axes"));
-  }
   if (angles == Vec3{}) return reset_tilt(channel, {});
   return tilt(channel, machine::Matrix3::spatial(angles), {});
 }
@@ -99,9 +97,8 @@ NcResult<void> program_call(Channel& channel, Words words) {
 NcResult<std::array<bool, 3>> mirrored_axes(std::span<const Word> words) {
   std::array<bool, 3> axes{};
   for (const Word& word : words) {
-    if (word.letter > Letter::Z) {
+    if (word.letter > Letter::Z)
       return nc_error("only X, Y and Z are mirrored here, not {}", klartext::spelling(word.letter));
-    }
     axes[static_cast<std::size_t>(word.letter)] = true;
   }
   return axes;

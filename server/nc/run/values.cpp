@@ -90,9 +90,8 @@ NcResult<double> number(Channel& channel, const Expr& expr) {
   if (const auto* literal = std::get_if<double>(&expr)) return *literal;
   if (const auto* node = std::get_if<NodeIndex>(&expr)) return evaluate(channel, *node);
   const auto* parameter = std::get_if<QRef>(&expr);
-  if (parameter == nullptr || parameter->is_string()) {
+  if (parameter == nullptr || parameter->is_string())
     return nc_error("a number is needed here, not a text");
-  }
   auto value = channel.parameters.number(*parameter);
   if (!value && is_preassigned(cell_of(*parameter))) {
     update_preassigned(channel);
@@ -130,9 +129,8 @@ NcResult<int> whole(Channel& channel, const Expr& expr) {
 }
 
 NcResult<std::string> text(Channel& channel, const Expr& expr) {
-  if (const auto* literal = std::get_if<Text>(&expr)) {
+  if (const auto* literal = std::get_if<Text>(&expr))
     return std::string(channel.program().text(*literal));
-  }
   if (const auto* parameter = std::get_if<QRef>(&expr);
       parameter != nullptr && parameter->is_string()) {
     const std::string* value = channel.parameters.string(parameter->number);
@@ -190,9 +188,8 @@ ToolWrite set_tool_value(Tool& tool, std::int64_t nr, double value) {
     return ToolWrite::Done;
   }
   if (const WholeColumn* whole = column(kWholeColumns, nr)) {
-    if (!(value >= 0 && value <= whole->most) || value != std::floor(value)) {
+    if (!(value >= 0 && value <= whole->most) || value != std::floor(value))
       return ToolWrite::OutOfRange;
-    }
     tool.*whole->value = static_cast<int>(value);
     return ToolWrite::Done;
   }
@@ -237,9 +234,8 @@ void update_preassigned(Channel& channel) {
 }
 
 void set_plane_angles(Channel& channel, const machine::Vec3& rotary) {
-  for (std::uint16_t i = 0; i < 3; ++i) {
+  for (std::uint16_t i = 0; i < 3; ++i)
     channel.parameters.set_q(static_cast<std::uint16_t>(120 + i), rotary[i]);
-  }
 }
 
 }  // namespace fitgauge::interpreter
