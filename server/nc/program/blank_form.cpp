@@ -14,8 +14,7 @@ bool is_lower_corner(const klartext::Block& block) {
 }
 
 /// The block of the last BLK FORM 0.1 before a block, or null.
-const klartext::Block* lower_corner(const klartext::Program& program,
-                                    const klartext::Block& block) {
+const klartext::Block* lower_corner(const Program& program, const klartext::Block& block) {
   const klartext::Block* at = &block;
   for (std::size_t passed = 0; passed < kMostSearched && at != program.blocks().data(); ++passed) {
     if (is_lower_corner(*--at)) return at;
@@ -25,29 +24,29 @@ const klartext::Block* lower_corner(const klartext::Program& program,
 
 }  // namespace
 
-bool has_lower_corner(const klartext::Program& program) {
+bool has_lower_corner(const Program& program) {
   const auto blocks = program.blocks();
   return std::ranges::any_of(blocks.first(std::min(blocks.size(), kMostSearched)), is_lower_corner);
 }
 
-std::vector<std::string> blank_faults(const klartext::Program& program,
-                                      const klartext::Block& block, const BlankValue& value) {
+std::vector<std::string> blank_faults(const Program& program, const klartext::Block& block,
+                                      const BlankValue& value) {
   const auto* blank = std::get_if<BlankForm>(&block.statement);
   if (blank == nullptr) return {};
   const auto words = program.view(blank->words);
-  if (blank->kind == BlankKind::Minimum && std::ranges::any_of(words, &klartext::Word::incremental))
+  if (blank->kind == BlankKind::Minimum && std::ranges::any_of(words, &Word::incremental))
     return {"the lower corner of the blank must be absolute: there is no position before it"};
   if (blank->kind != BlankKind::Maximum) return {};
   const klartext::Block* least = lower_corner(program, block);
   if (least == nullptr) return {std::string(kNoLowerCorner)};
   const bool is_next = least + 1 == &block;  // else parameters may have other values by now
-  const auto number = [&](const klartext::Expr& written) {
+  const auto number = [&](const Expr& written) {
     if (const auto* literal = std::get_if<double>(&written)) return std::optional(*literal);
     return is_next ? value(written) : std::nullopt;
   };
   std::vector<std::string> faults;
-  for (const klartext::Word& word : words) {
-    for (const klartext::Word& below : program.view(std::get<BlankForm>(least->statement).words)) {
+  for (const Word& word : words) {
+    for (const Word& below : program.view(std::get<BlankForm>(least->statement).words)) {
       if (word.letter != below.letter) continue;
       const auto written = number(word.value);
       const auto lower = number(below.value);
@@ -63,9 +62,9 @@ std::vector<std::string> blank_faults(const klartext::Program& program,
   return faults;
 }
 
-bool may_have_blank_fault(const klartext::Program& program, const klartext::Block& block) {
+bool may_have_blank_fault(const Program& program, const klartext::Block& block) {
   bool depends = false;
-  const auto ask = [&](const klartext::Expr&) {
+  const auto ask = [&](const Expr&) {
     depends = true;
     return std::optional<double>();
   };

@@ -7,9 +7,6 @@
 namespace fitgauge::interpreter {
 namespace {
 
-using klartext::Diagnostic;
-using klartext::Severity;
-
 std::string_view word(FileReference::Kind kind) {
   return word_of(kind, {"program", "table", "mask"});
 }
@@ -31,7 +28,7 @@ class Walk {
         warn(named.reference,
              "the programs named are too many to check at once; this one is checked when it is "
              "called",
-             klartext::DiagnosticCode::ProgramTooLarge);
+             DiagnosticCode::ProgramTooLarge);
       } else {
         visit_called(named);
       }
@@ -126,7 +123,7 @@ class Walk {
   }
 
   void warn(const FileReference& reference, std::string message,
-            klartext::DiagnosticCode code = klartext::DiagnosticCode::FileMissing) {
+            DiagnosticCode code = DiagnosticCode::FileMissing) {
     Diagnostic warning = reference.place;
     warning.code = code;
     warning.message = std::move(message);

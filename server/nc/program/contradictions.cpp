@@ -10,8 +10,6 @@ namespace fitgauge::interpreter {
 namespace {
 
 using klartext::Block;
-using klartext::DiagnosticCode;
-using klartext::Severity;
 using probing::CycleDescriptor;
 
 /// Nominal size of a cycle, and its limit or the tolerance of its centre.
@@ -30,7 +28,7 @@ constexpr std::size_t kMostEntered = 1'000;
 
 class Contradictions {
  public:
-  Contradictions(const klartext::Program& program, std::vector<klartext::Diagnostic>& diagnostics)
+  Contradictions(const Program& program, std::vector<Diagnostic>& diagnostics)
       : program_(program), diagnostics_(diagnostics) {}
 
   void check() {
@@ -50,8 +48,8 @@ class Contradictions {
 
  private:
   /// @returns the finding; null if there are too many
-  klartext::Diagnostic* warn(DiagnosticCode code, klartext::Slice<char> place, std::string message,
-                             const Block* block = nullptr, Severity severity = Severity::Warning) {
+  Diagnostic* warn(DiagnosticCode code, Slice<char> place, std::string message,
+                   const Block* block = nullptr, Severity severity = Severity::Warning) {
     return report(diagnostics_, program_, block != nullptr ? *block : *block_, place, severity,
                   code, std::move(message));
   }
@@ -62,7 +60,7 @@ class Contradictions {
   // --- blocks before a block that probes
   void visit(const auto&) {}
   void visit(const klartext::BlankForm&) {
-    const auto value = [this](const klartext::Expr& written) {
+    const auto value = [this](const Expr& written) {
       const auto known = constants_.value_of(program_, written);
       return known ? std::optional(known->value) : std::nullopt;
     };
@@ -71,7 +69,7 @@ class Contradictions {
   }
   void visit(const klartext::LabelDefinition& label) {
     forget();
-    if (label.label == klartext::Label(0U)) constants_.clear();  // the next part has other callers
+    if (label.label == Label(0U)) constants_.clear();  // the next part has other callers
   }
   void visit(const klartext::LabelCall& call) {
     forget();
@@ -107,9 +105,9 @@ class Contradictions {
     if (part.family != klartext::CycleFamily::CyclDef || !is_old ||
         part.part != (part.number == 18 ? 1 : 2))
       return;
-    for (const klartext::Word& word : program_.view(part.words)) {
+    for (const Word& word : program_.view(part.words)) {
       const auto depth = constants_.value_of(program_, word.value);
-      if (word.letter != klartext::Letter::Value || !depth || depth->value <= 0) continue;
+      if (word.letter != Letter::Value || !depth || depth->value <= 0) continue;
       warn(DiagnosticCode::OrderContradicts, block_->written,
            fmt::format("the depth {} {}", depth->value, kDepthNeeds));
     }
@@ -144,27 +142,27 @@ class Contradictions {
     for (unsigned i = 0; i < 8; ++i) set(table.first, i);
   }
 
-  void set(klartext::QRef parameter, unsigned behind = 0) {
+  void set(QRef parameter, unsigned behind = 0) {
     const std::size_t number = parameter.number + behind;
     constants_.forget(parameter.space, number);
-    if (parameter.space == klartext::QSpace::Q && number < kEndOfResults) set_.set(number);
+    if (parameter.space == QSpace::Q && number < kEndOfResults) set_.set(number);
   }
-  void read(const klartext::Expr& value) {
-    if (const auto* parameter = std::get_if<klartext::QRef>(&value)) {
-      const bool is_result = parameter->space == klartext::QSpace::Q &&
-                             parameter->number >= kFirstResult && parameter->number < kEndOfResults;
+  void read(const Expr& value) {
+    if (const auto* parameter = std::get_if<QRef>(&value)) {
+      const bool is_result = parameter->space == QSpace::Q && parameter->number >= kFirstResult &&
+                             parameter->number < kEndOfResults;
       if (!is_result) return;
       auto& blocks = reads_[parameter->number];
       if (blocks.empty() || blocks.back() != block_) blocks.push_back(block_);
-    } else if (const auto* node = std::get_if<klartext::NodeIndex>(&value)) {
-      for (const klartext::Expr& operand : program_.operands(*node)) read(operand);
+    } else if (const auto* node = std::get_if<NodeIndex>(&value)) {
+      for (const Expr& operand : program_.operands(*node)) read(operand);
     }
   }
-  void read(klartext::Slice<klartext::Word> words) {
-    for (const klartext::Word& word : program_.view(words)) {
+  void read(Slice<Word> words) {
+    for (const Word& word : program_.view(words)) {
       read(word.value);
       const auto* number = std::get_if<double>(&word.value);
-      if (word.letter != klartext::Letter::M || number == nullptr) continue;
+      if (word.letter != Letter::M || number == nullptr) continue;
       const int m = static_cast<int>(*number);
       if (m == 3 || m == 4 || m == 13 || m == 14) spindle_ = block_;
       if (m == 5 || m == 6 || m == 19) spindle_ = nullptr;
@@ -182,7 +180,7 @@ class Contradictions {
     is_called_ = true;
     for (block_ = is_plain ? labels_[*number] : end; is_plain && block_ != end; ++block_) {
       if (const auto* definition = std::get_if<klartext::LabelDefinition>(&block_->statement)) {
-        if (definition->label == klartext::Label(0U)) break;
+        if (definition->label == Label(0U)) break;
       } else if (const auto* cycle = std::get_if<klartext::Cycle>(&block_->statement)) {
         if (const auto* known = bind_cycle(program_, *cycle).descriptor())
           check_order(*cycle, *known);
@@ -228,11 +226,11 @@ class Contradictions {
 
   /// The places of a result in the blocks that read it; none if one does not show it or if there
   /// are too many.
-  std::vector<klartext::DiagnosticEdit> edits_of(const std::vector<const Block*>& blocks,
-                                                 std::uint16_t number) const {
-    std::vector<klartext::DiagnosticEdit> edits;
+  std::vector<DiagnosticEdit> edits_of(const std::vector<const Block*>& blocks,
+                                       std::uint16_t number) const {
+    std::vector<DiagnosticEdit> edits;
     for (const Block* block : blocks) {
-      const auto places = places_of(program_, block->written, {klartext::QSpace::Q, number});
+      const auto places = places_of(program_, block->written, {QSpace::Q, number});
       if (places.empty() || edits.size() > kMostFindings) return {};
       for (const auto place : places) edits.push_back({program_.range(place)});
     }
@@ -248,7 +246,7 @@ class Contradictions {
       return;
     }
     for (const auto& written : program_.view(cycle.parameters)) read(written.value);
-    for (const auto& result : descriptor->results) set({klartext::QSpace::Q, result.q});
+    for (const auto& result : descriptor->results) set({QSpace::Q, result.q});
     check_order(cycle, *descriptor);
     if (cycle.family == klartext::CycleFamily::CyclDef) {
       if (descriptor->kind == probing::CycleKind::Machining) cutter_ = block_;
@@ -345,7 +343,7 @@ class Contradictions {
   }
 
   /// The remedy for two numbers; for one, its minus.
-  void add_exchange(klartext::Diagnostic& found, const FollowedValue& a, const FollowedValue& b) {
+  void add_exchange(Diagnostic& found, const FollowedValue& a, const FollowedValue& b) {
     auto one = written_value(program_, a);
     auto two = written_value(program_, b);
     if (!one || !two) return;
@@ -429,7 +427,7 @@ class Contradictions {
   }
 
   /// `Q274=+50` directly after a cycle without Q274: the previous line has no `~`.
-  void check_line_before(klartext::QRef target) {
+  void check_line_before(QRef target) {
     const auto* cycle =
         before_ == nullptr ? nullptr : std::get_if<klartext::Cycle>(&before_->statement);
     if (cycle == nullptr || block_->has_number) return;
@@ -445,8 +443,8 @@ class Contradictions {
          nullptr, Severity::Error);
   }
 
-  const klartext::Program& program_;
-  std::vector<klartext::Diagnostic>& diagnostics_;
+  const Program& program_;
+  std::vector<Diagnostic>& diagnostics_;
   const Block* block_ = nullptr;
   const Block* before_ = nullptr;
   const Block* spindle_ = nullptr;  ///< the block that has started the spindle
@@ -465,8 +463,7 @@ class Contradictions {
 
 }  // namespace
 
-void check_contradictions(const klartext::Program& program,
-                          std::vector<klartext::Diagnostic>& diagnostics) {
+void check_contradictions(const Program& program, std::vector<Diagnostic>& diagnostics) {
   Contradictions(program, diagnostics).check();
   std::erase_if(diagnostics, [&](const auto& found) { return is_ignored(program, found); });
 }

@@ -78,7 +78,7 @@ constexpr std::array<CycleDescriptor, 6> kDefinitions{
 
 }  // namespace
 
-BoundCycle bind_cycle(const klartext::Program& program, const klartext::Cycle& cycle) {
+BoundCycle bind_cycle(const Program& program, const klartext::Cycle& cycle) {
   BoundCycle bound;
   if (cycle.family == klartext::CycleFamily::GlobalDef) {
     bound.global = global_definition(cycle.number);
@@ -105,7 +105,7 @@ double scale_of(probing::Unit unit, bool is_inch) {
   }
 }
 
-std::optional<probing::ArgumentValue> literal(const klartext::Program& program,
+std::optional<probing::ArgumentValue> literal(const Program& program,
                                               const klartext::CycleParameter& written,
                                               const probing::CycleParameter& parameter) {
   switch (written.kind) {
@@ -117,14 +117,13 @@ std::optional<probing::ArgumentValue> literal(const klartext::Program& program,
     const bool is_inch = program.unit() == klartext::Unit::Inch;
     return *number * scale_of(parameter.unit, is_inch);
   }
-  if (const auto* text = std::get_if<klartext::Text>(&written.value))
-    return std::string(program.text(*text));
+  if (const auto* text = std::get_if<Text>(&written.value)) return std::string(program.text(*text));
   return std::nullopt;
 }
 
 const probing::CycleParameter* find_parameter(const probing::CycleDescriptor& descriptor,
-                                              klartext::QRef written) {
-  if (written.space != klartext::QSpace::Q && written.space != klartext::QSpace::Qs) return nullptr;
+                                              QRef written) {
+  if (written.space != QSpace::Q && written.space != QSpace::Qs) return nullptr;
   const auto* parameter = descriptor.find(probing::q(written.number));
   if (parameter == nullptr || !written.is_string()) return parameter;
   return parameter->takes_text() ? parameter : nullptr;

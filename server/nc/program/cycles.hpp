@@ -1,7 +1,7 @@
 #pragma once
 
-#include "nc/klartext/syntax.hpp"
 #include "nc/probing/touch_probe_cycle.hpp"
+#include "nc/program/parameter.hpp"
 
 namespace fitgauge::interpreter {
 
@@ -76,7 +76,7 @@ struct BoundCycle {
   }
 };
 
-BoundCycle bind_cycle(const klartext::Program& program, const klartext::Cycle& cycle);
+BoundCycle bind_cycle(const Program& program, const klartext::Cycle& cycle);
 
 inline constexpr double kMillimetresPerInch = 25.4;
 
@@ -86,13 +86,13 @@ double scale_of(probing::Unit unit, bool is_inch);
 
 /// Returns the value of a cycle parameter that is known before the program runs: a written number
 /// or text. None for parameters, formulas and PREDEF.
-std::optional<probing::ArgumentValue> literal(const klartext::Program& program,
+std::optional<probing::ArgumentValue> literal(const Program& program,
                                               const klartext::CycleParameter& written,
                                               const probing::CycleParameter& parameter);
 
 /// The descriptor's parameter that `Q262=` or `QS400=` of a block means, or null.
 const probing::CycleParameter* find_parameter(const probing::CycleDescriptor& descriptor,
-                                              klartext::QRef written);
+                                              QRef written);
 
 /// Another cycle of the same family with that name, or null; of two that which is written alike.
 const probing::CycleDescriptor* other_cycle(const probing::CycleDescriptor& cycle,

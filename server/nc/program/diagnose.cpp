@@ -1,7 +1,5 @@
 #include "nc/program/diagnose.hpp"
 
-#include "nc/program/parameter.hpp"
-
 namespace fitgauge::interpreter {
 namespace {
 
@@ -41,7 +39,7 @@ bool ignores(std::string_view line, std::string_view code) {
 bool is_in_word(char c) { return is_ascii_alphanumeric(c) || c == '_'; }
 
 /// The last physical line of the block that begins in a line.
-std::uint32_t last_line_of_block(const klartext::Program& program, std::uint32_t line) {
+std::uint32_t last_line_of_block(const Program& program, std::uint32_t line) {
   const auto begin = [&](const klartext::Block& block) {
     return program.range(block.written).begin.line;
   };
@@ -52,11 +50,8 @@ std::uint32_t last_line_of_block(const klartext::Program& program, std::uint32_t
 
 }  // namespace
 
-using klartext::Diagnostic;
-
-Diagnostic diagnose(const klartext::Program& program, const klartext::Block& block,
-                    klartext::Slice<char> place, klartext::Severity severity,
-                    klartext::DiagnosticCode code, std::string message) {
+Diagnostic diagnose(const Program& program, const klartext::Block& block, Slice<char> place,
+                    Severity severity, DiagnosticCode code, std::string message) {
   // A finding is within one physical line.
   const std::string_view written = program.written(place);
   place.count = static_cast<std::uint32_t>(std::min(written.find('\n'), written.size()));
@@ -70,19 +65,16 @@ Diagnostic diagnose(const klartext::Program& program, const klartext::Block& blo
           std::string(program.line(range.begin.line))};
 }
 
-Diagnostic* report(std::vector<Diagnostic>& diagnostics, const klartext::Program& program,
-                   const klartext::Block& block, klartext::Slice<char> place,
-                   klartext::Severity severity, klartext::DiagnosticCode code,
-                   std::string message) {
+Diagnostic* report(std::vector<Diagnostic>& diagnostics, const Program& program,
+                   const klartext::Block& block, Slice<char> place, Severity severity,
+                   DiagnosticCode code, std::string message) {
   if (diagnostics.size() >= kMostFindings) return nullptr;
   return &diagnostics.emplace_back(
       diagnose(program, block, place, severity, code, std::move(message)));
 }
 
-std::vector<klartext::Slice<char>> places_of(const klartext::Program& program,
-                                             klartext::Slice<char> place,
-                                             klartext::QRef parameter) {
-  std::vector<klartext::Slice<char>> found;
+std::vector<Slice<char>> places_of(const Program& program, Slice<char> place, QRef parameter) {
+  std::vector<Slice<char>> found;
   const std::string_view code = program.written(place);
   bool quoted = false;
   for (std::size_t at = 0, end = 0; at < code.size(); at = end) {
@@ -124,8 +116,7 @@ void suggest(std::vector<Diagnostic>& diagnostics, std::string_view wrong,
   }
 }
 
-std::optional<klartext::DiagnosticEdit> written_number(const klartext::Program& program,
-                                                       klartext::Slice<char> place) {
+std::optional<DiagnosticEdit> written_number(const Program& program, Slice<char> place) {
   std::string_view code = program.written(place);
   code = code.substr(0, code.find_first_of("\n;"));
   code = code.substr(0, code.find_last_not_of(" \t\r~*") + 1);
@@ -136,12 +127,12 @@ std::optional<klartext::DiagnosticEdit> written_number(const klartext::Program& 
   if (begin == code.size() || !is_set) return std::nullopt;
   place.first += static_cast<std::uint32_t>(begin);
   place.count = static_cast<std::uint32_t>(code.size() - begin);
-  return klartext::DiagnosticEdit{program.range(place), std::string(code.substr(begin))};
+  return DiagnosticEdit{program.range(place), std::string(code.substr(begin))};
 }
 
-bool is_ignored(const klartext::Program& program, const Diagnostic& found) {
+bool is_ignored(const Program& program, const Diagnostic& found) {
   const std::uint32_t line = found.range.begin.line;
-  if (found.severity == klartext::Severity::Error || line == 0) return false;
+  if (found.severity == Severity::Error || line == 0) return false;
   const std::string_view code = id(found.code);
   const bool is_of_block = code.starts_with("run.");
   const std::uint32_t last = is_of_block ? last_line_of_block(program, line) : line;
@@ -153,7 +144,7 @@ bool is_ignored(const klartext::Program& program, const Diagnostic& found) {
   return text != above.npos && above[text] == ';' && ignores(above, code);
 }
 
-klartext::DiagnosticNote inch_note(const klartext::Program& program) {
+DiagnosticNote inch_note(const Program& program) {
   const auto begin = std::ranges::find_if(program.blocks(), [](const klartext::Block& block) {
     return std::holds_alternative<klartext::BeginProgram>(block.statement);
   });

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "nc/klartext/diagnostic.hpp"
-#include "nc/klartext/syntax.hpp"
+#include "nc/program/parameter.hpp"
 
 namespace fitgauge::interpreter {
 
@@ -9,34 +8,30 @@ namespace fitgauge::interpreter {
 inline constexpr std::size_t kMostFindings = 200;
 
 /// Makes a finding about a place of a program, up to the end of its first physical line.
-klartext::Diagnostic diagnose(const klartext::Program& program, const klartext::Block& block,
-                              klartext::Slice<char> place, klartext::Severity severity,
-                              klartext::DiagnosticCode code, std::string message);
+Diagnostic diagnose(const Program& program, const klartext::Block& block, Slice<char> place,
+                    Severity severity, DiagnosticCode code, std::string message);
 
 /// Adds a finding unless there are too many. @returns it, or null
-klartext::Diagnostic* report(std::vector<klartext::Diagnostic>& diagnostics,
-                             const klartext::Program& program, const klartext::Block& block,
-                             klartext::Slice<char> place, klartext::Severity severity,
-                             klartext::DiagnosticCode code, std::string message);
+Diagnostic* report(std::vector<Diagnostic>& diagnostics, const Program& program,
+                   const klartext::Block& block, Slice<char> place, Severity severity,
+                   DiagnosticCode code, std::string message);
 
 /// Where a parameter is written in the code of a place: not in comments and texts.
-std::vector<klartext::Slice<char>> places_of(const klartext::Program& program,
-                                             klartext::Slice<char> place, klartext::QRef parameter);
+std::vector<Slice<char>> places_of(const Program& program, Slice<char> place, QRef parameter);
 
 /// Adds the remedy to write the near word to the last finding.
-void suggest(std::vector<klartext::Diagnostic>& diagnostics, std::string_view wrong,
+void suggest(std::vector<Diagnostic>& diagnostics, std::string_view wrong,
              const SpellingHint& hint);
 
 /// The only number that a place sets, as written: `Q275=+25`, `Q9 = +26`, `D00 Q9 P01 +26`.
-std::optional<klartext::DiagnosticEdit> written_number(const klartext::Program& program,
-                                                       klartext::Slice<char> place);
+std::optional<DiagnosticEdit> written_number(const Program& program, Slice<char> place);
 
 /// Returns whether a comment of the program switches a note or warning off: `check:ignore`, with or
 /// without codes, in its line or in the comment line above it; of a run, in a line of its block.
-bool is_ignored(const klartext::Program& program, const klartext::Diagnostic& found);
+bool is_ignored(const Program& program, const Diagnostic& found);
 
 /// The unit of a program in INCH as the cause of a finding.
-klartext::DiagnosticNote inch_note(const klartext::Program& program);
+DiagnosticNote inch_note(const Program& program);
 
 /// The member of the setup that makes an M function or a cycle of the machine builder known, as a
 /// hint in the messages of checks and runs.

@@ -2,14 +2,13 @@
 
 #include "base/number.hpp"
 #include "nc/program/diagnose.hpp"
-#include "nc/program/parameter.hpp"
 
 namespace fitgauge::interpreter {
 
 /// A number, and where it is written.
 struct FollowedValue {
   double value = 0;
-  klartext::Slice<char> place{};
+  Slice<char> place{};
   const klartext::Block* block = nullptr;
 };
 
@@ -17,13 +16,13 @@ struct FollowedValue {
 class FollowedValues {
  public:
   void clear() { values_.clear(); }
-  void forget(klartext::QSpace space, std::size_t number) { values_.erase({space, number}); }
-  void set(klartext::QRef parameter, const FollowedValue& value) {
+  void forget(QSpace space, std::size_t number) { values_.erase({space, number}); }
+  void set(QRef parameter, const FollowedValue& value) {
     values_[{parameter.space, parameter.number}] = value;
   }
 
   /// Returns the parameters of a cycle that are numbers there, by parameter number.
-  std::map<int, FollowedValue> known(const klartext::Program& program, const klartext::Cycle& cycle,
+  std::map<int, FollowedValue> known(const Program& program, const klartext::Cycle& cycle,
                                      const klartext::Block* block) const {
     std::map<int, FollowedValue> all;
     for (const auto& written : program.view(cycle.parameters)) {
@@ -37,19 +36,18 @@ class FollowedValues {
 
   /// Returns an expression of numbers and of parameters that are numbers, with the place of the
   /// last of these parameters; no block if there is none.
-  std::optional<FollowedValue> value_of(const klartext::Program& program,
-                                        const klartext::Expr& value) const {
+  std::optional<FollowedValue> value_of(const Program& program, const Expr& value) const {
     if (const auto* number = std::get_if<double>(&value)) return FollowedValue{*number};
-    if (const auto* parameter = std::get_if<klartext::QRef>(&value)) {
+    if (const auto* parameter = std::get_if<QRef>(&value)) {
       const auto found = values_.find({parameter->space, parameter->number});
       return found == values_.end() ? std::nullopt : std::optional(found->second);
     }
-    const auto* index = std::get_if<klartext::NodeIndex>(&value);
+    const auto* index = std::get_if<NodeIndex>(&value);
     if (index == nullptr || !is_arithmetic(program.node(*index).op)) return std::nullopt;
     FollowedValue result;
     std::array<double, 2> operands{};
     std::size_t count = 0;
-    for (const klartext::Expr& operand : program.operands(*index)) {
+    for (const Expr& operand : program.operands(*index)) {
       const auto found = value_of(program, operand);
       if (!found) return std::nullopt;
       if (found->block != nullptr && found->block >= result.block) result = *found;
@@ -60,12 +58,12 @@ class FollowedValues {
   }
 
  private:
-  std::map<std::pair<klartext::QSpace, std::size_t>, FollowedValue> values_;
+  std::map<std::pair<QSpace, std::size_t>, FollowedValue> values_;
 };
 
 /// The written number that a value is: none of `Q201=-Q5` and `Q5 = 20`.
-inline std::optional<klartext::DiagnosticEdit> written_value(const klartext::Program& program,
-                                                             const FollowedValue& followed) {
+inline std::optional<DiagnosticEdit> written_value(const Program& program,
+                                                   const FollowedValue& followed) {
   auto written = written_number(program, followed.place);
   if (!written) return written;
   std::string text = written->by.substr(written->by.starts_with('+') ? 1 : 0);
@@ -74,7 +72,7 @@ inline std::optional<klartext::DiagnosticEdit> written_value(const klartext::Pro
 }
 
 /// Whether the cycle alone reads the parameter with a value: it is written twice in the program.
-inline bool is_read_once(const klartext::Program& program, const FollowedValue& followed) {
+inline bool is_read_once(const Program& program, const FollowedValue& followed) {
   const auto* source = std::get_if<klartext::Assignment>(&followed.block->statement);
   if (source == nullptr) return true;
   std::size_t count = 0;

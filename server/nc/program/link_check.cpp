@@ -6,7 +6,6 @@
 #include "nc/probing/cycles.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
-#include "nc/program/parameter.hpp"
 #include "nc/program/system_addresses.hpp"
 #include "nc/program/word_senses.hpp"
 
@@ -15,8 +14,6 @@ namespace {
 
 using klartext::Block;
 using klartext::CyclePart;
-using klartext::DiagnosticCode;
-using klartext::Severity;
 
 /// Maximum number of comments between two sub-lines of a cycle, which are skipped.
 constexpr std::uint32_t kMostBetween = 100;
@@ -28,8 +25,7 @@ bool is_comment(const Block& block) {
 
 /// Returns the sub-line before (`step` -1) or after (1) the sub-line at `index`, if it belongs to
 /// that cycle.
-std::optional<std::uint32_t> neighbour(const klartext::Program& program, std::uint32_t index,
-                                       int step) {
+std::optional<std::uint32_t> neighbour(const Program& program, std::uint32_t index, int step) {
   const auto blocks = program.blocks();
   const auto& part = std::get<CyclePart>(blocks[index].statement);
   for (std::uint32_t passed = 0; passed <= kMostBetween; ++passed) {
@@ -76,9 +72,9 @@ struct SystemAddress {
   bool is_known = false;  ///< IDX is a number, or there is none
 };
 
-std::optional<SystemAddress> system_address(const klartext::Program& program,
-                                            const klartext::Expr& address, klartext::Operator op) {
-  const auto* node = std::get_if<klartext::NodeIndex>(&address);
+std::optional<SystemAddress> system_address(const Program& program, const Expr& address,
+                                            Operator op) {
+  const auto* node = std::get_if<NodeIndex>(&address);
   if (node == nullptr || program.node(*node).op != op) return std::nullopt;
   const auto operands = program.operands(*node);
   const auto whole = [&](std::size_t i) {
@@ -98,7 +94,7 @@ struct Given {
   std::bitset<5> needs;  ///< by SystemNeed
   std::set<int> texts;   ///< QS that it sets
 
-  explicit Given(const klartext::Program& program) {
+  explicit Given(const Program& program) {
     for (const Block& block : program.blocks())
       std::visit([this](const auto& statement) { add(statement); }, block.statement);
   }
@@ -132,8 +128,8 @@ struct Given {
 /// Finds the faults of one block.
 class BlockCheck {
  public:
-  BlockCheck(const klartext::Program& program, const Block& block, std::uint32_t index,
-             std::vector<klartext::Diagnostic>& diagnostics)
+  BlockCheck(const Program& program, const Block& block, std::uint32_t index,
+             std::vector<Diagnostic>& diagnostics)
       : program_(program), block_(block), index_(index), diagnostics_(diagnostics) {}
 
   void check(const auto&) {}
@@ -161,10 +157,10 @@ class BlockCheck {
   /// The end that IPA gives must be the one that DR leads to.
   void check(const klartext::Motion& motion) {
     check_words(motion.words);
-    for (const klartext::Word& word : program_.view(motion.words)) {
+    for (const Word& word : program_.view(motion.words)) {
       const auto* angle = std::get_if<double>(&word.value);
-      if (motion.path != klartext::Path::Cp || word.letter != klartext::Letter::Pa ||
-          !word.incremental || angle == nullptr || *angle == 0)
+      if (motion.path != klartext::Path::Cp || word.letter != Letter::Pa || !word.incremental ||
+          angle == nullptr || *angle == 0)
         continue;
       const bool is_left = motion.rotation != klartext::Rotation::Negative;
       if ((*angle > 0) == is_left) continue;
@@ -176,8 +172,8 @@ class BlockCheck {
   }
 
   /// The data of FN 17 or FN 18 must be those that this control has.
-  void check_system_data(const klartext::Expr& address, bool writes) {
-    const auto op = writes ? klartext::Operator::SystemAddress : klartext::Operator::SystemRead;
+  void check_system_data(const Expr& address, bool writes) {
+    const auto op = writes ? Operator::SystemAddress : Operator::SystemRead;
     const auto written = system_address(program_, address, op);
     if (!written || !written->id) return;
     const auto& [id, number, index, is_known] = *written;
@@ -217,11 +213,11 @@ class BlockCheck {
     }
   }
 
-  void check_words(klartext::Slice<klartext::Word> words) {
+  void check_words(Slice<Word> words) {
     std::vector<int> before;
-    for (const klartext::Word& word : program_.view(words)) {
+    for (const Word& word : program_.view(words)) {
       const auto* number = std::get_if<double>(&word.value);
-      if (word.letter != klartext::Letter::M || number == nullptr) continue;
+      if (word.letter != Letter::M || number == nullptr) continue;
       const int function = static_cast<int>(*number);
       constexpr std::size_t kMostCompared = 16;
       const auto other = std::ranges::find_if(
@@ -246,13 +242,13 @@ class BlockCheck {
     if (part.number != 7 && part.number != 8 && part.number != 26) return;
     klartext::LetterSet named;
     bool names_row = false;
-    for (const klartext::Word& word : program_.view(part.words)) {
+    for (const Word& word : program_.view(part.words)) {
       named = named | klartext::LetterSet(word.letter);
-      names_row = names_row || word.letter == klartext::Letter::Row;
+      names_row = names_row || word.letter == Letter::Row;
     }
     for (auto at = before; at; at = neighbour(program_, *at, -1)) {
       const auto& other = std::get<CyclePart>(program_.blocks()[*at].statement);
-      for (const klartext::Word& word : program_.view(other.words)) {
+      for (const Word& word : program_.view(other.words)) {
         if (!named.contains(word.letter)) continue;
         return report(
             Severity::Error, DiagnosticCode::WordRepeated, block_.written,
@@ -260,7 +256,7 @@ class BlockCheck {
                         program_.range(program_.blocks()[*at].written).begin.line));
       }
       names_row = names_row || std::ranges::any_of(program_.view(other.words), [](const auto& w) {
-                    return w.letter == klartext::Letter::Row;
+                    return w.letter == Letter::Row;
                   });
     }
     const bool names_axis = std::ranges::any_of(
@@ -270,8 +266,7 @@ class BlockCheck {
              "cycle 7 takes a row of the datum table or coordinates, not both");
   }
 
-  void report(Severity severity, DiagnosticCode code, klartext::Slice<char> place,
-              std::string message) {
+  void report(Severity severity, DiagnosticCode code, Slice<char> place, std::string message) {
     interpreter::report(diagnostics_, program_, block_, place, severity, code, std::move(message));
   }
 
@@ -379,24 +374,24 @@ class BlockCheck {
   }
 
   /// @return whether the check passed.
-  bool report_failure(const probing::CycleResult<void>& checked, klartext::Slice<char> place) {
+  bool report_failure(const probing::CycleResult<void>& checked, Slice<char> place) {
     if (checked) return true;
     report(Severity::Error, DiagnosticCode::CycleParameterInvalid, place, checked.error().text);
     return false;
   }
 
-  const klartext::Program& program_;
+  const Program& program_;
   const Block& block_;
   const std::uint32_t index_;
-  std::vector<klartext::Diagnostic>& diagnostics_;
+  std::vector<Diagnostic>& diagnostics_;
 };
 
 }  // namespace
 
-bool has_effect(const klartext::Program& program, std::uint32_t index) {
+bool has_effect(const Program& program, std::uint32_t index) {
   const auto& statement = program.blocks()[index].statement;
   if (const auto* label = std::get_if<klartext::LabelDefinition>(&statement))
-    return label->label == klartext::Label(std::uint32_t{0});
+    return label->label == Label(std::uint32_t{0});
   if (std::holds_alternative<CyclePart>(statement))
     return !neighbour(program, index, 1).has_value();
   if (std::holds_alternative<klartext::BlankForm>(statement))
@@ -405,21 +400,20 @@ bool has_effect(const klartext::Program& program, std::uint32_t index) {
            std::holds_alternative<klartext::BeginProgram>(statement));
 }
 
-std::uint32_t first_part(const klartext::Program& program, std::uint32_t index) {
+std::uint32_t first_part(const Program& program, std::uint32_t index) {
   if (!std::holds_alternative<CyclePart>(program.blocks()[index].statement)) return index;
   while (const auto before = neighbour(program, index, -1)) index = *before;
   return index;
 }
 
-void check_system_needs(const klartext::Program& program,
-                        std::vector<klartext::Diagnostic>& diagnostics) {
+void check_system_needs(const Program& program, std::vector<Diagnostic>& diagnostics) {
   constexpr std::string_view kNeeds[] = {"", "an active cycle", "a text in QS",
                                          "a touch probe in the spindle", "a touch before it"};
   std::optional<Given> given;
   for (const Block& block : program.blocks()) {
     const auto* assignment = std::get_if<klartext::Assignment>(&block.statement);
     if (assignment == nullptr || diagnostics.size() >= kMostFindings) continue;
-    const auto address = system_address(program, assignment->value, klartext::Operator::SystemRead);
+    const auto address = system_address(program, assignment->value, Operator::SystemRead);
     if (!address) continue;
     const int id = address->id.value_or(0);
     const int number = address->number.value_or(0);
@@ -438,8 +432,8 @@ void check_system_needs(const klartext::Program& program,
   }
 }
 
-void check_block(const klartext::Program& program, std::uint32_t index,
-                 std::vector<klartext::Diagnostic>& diagnostics) {
+void check_block(const Program& program, std::uint32_t index,
+                 std::vector<Diagnostic>& diagnostics) {
   const Block& block = program.blocks()[index];
   BlockCheck check(program, block, index, diagnostics);
   std::visit([&](const auto& statement) { check.check(statement); }, block.statement);

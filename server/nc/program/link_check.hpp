@@ -1,25 +1,22 @@
 #pragma once
 
-#include "nc/klartext/diagnostic.hpp"
-#include "nc/klartext/syntax.hpp"
+#include "nc/program/parameter.hpp"
 
 namespace fitgauge::interpreter {
 
 /// Whether a block does something when the program runs: comments, labels but LBL 0, a right BLK
 /// FORM and all sub-lines of a dotted cycle but its last do not.
-bool has_effect(const klartext::Program& program, std::uint32_t block);
+bool has_effect(const Program& program, std::uint32_t block);
 
 /// Returns the block that opens the dotted cycle of the sub-line `block`; for other blocks `block`.
-std::uint32_t first_part(const klartext::Program& program, std::uint32_t block);
+std::uint32_t first_part(const Program& program, std::uint32_t block);
 
 /// Notes FN 18 of a program that gives nowhere what the run needs for it.
-void check_system_needs(const klartext::Program& program,
-                        std::vector<klartext::Diagnostic>& diagnostics);
+void check_system_needs(const Program& program, std::vector<Diagnostic>& diagnostics);
 
 /// Reports faults of the cycle of a block (unknown or invalid parameters: errors; an unavailable
 /// cycle: a warning) and unavailable M functions (warnings).
-void check_block(const klartext::Program& program, std::uint32_t block,
-                 std::vector<klartext::Diagnostic>& diagnostics);
+void check_block(const Program& program, std::uint32_t block, std::vector<Diagnostic>& diagnostics);
 
 // contradictions.cpp
 /// Adds warnings for contradictions in a program: a dialog text or comment that means another cycle
@@ -27,8 +24,7 @@ void check_block(const klartext::Program& program, std::uint32_t block,
 /// cutter or a turning spindle that probes, results that no cycle gives, parameters after a line
 /// without `~`. A parameter with a known number counts as that number; the finding is at its
 /// assignment. Then drops the findings that a comment switches off.
-void check_contradictions(const klartext::Program& program,
-                          std::vector<klartext::Diagnostic>& diagnostics);
+void check_contradictions(const Program& program, std::vector<Diagnostic>& diagnostics);
 
 // blank_form.cpp
 /// A fault of a program that no other calls: the caller may give the corner.
@@ -37,16 +33,16 @@ inline constexpr std::string_view kNoLowerCorner =
 
 /// Whether one of the first thousand blocks is a BLK FORM 0.1, for the programs that this one
 /// calls.
-bool has_lower_corner(const klartext::Program& program);
+bool has_lower_corner(const Program& program);
 
-using BlankValue = std::function<std::optional<double>(const klartext::Expr&)>;
+using BlankValue = std::function<std::optional<double>(const Expr&)>;
 
 /// The faults of a BLK FORM 0.1 or 0.2 and its other corner. Empty for other blocks. @param
 /// value of what is no number, or nothing if it is unknown
-std::vector<std::string> blank_faults(const klartext::Program& program,
-                                      const klartext::Block& block, const BlankValue& value);
+std::vector<std::string> blank_faults(const Program& program, const klartext::Block& block,
+                                      const BlankValue& value);
 
 /// Whether the block has a fault, or may have one with values of the run.
-bool may_have_blank_fault(const klartext::Program& program, const klartext::Block& block);
+bool may_have_blank_fault(const Program& program, const klartext::Block& block);
 
 }  // namespace fitgauge::interpreter

@@ -11,24 +11,24 @@ namespace fitgauge::interpreter {
 
 /// Cells: first the parameters, then the cells of the running program.
 inline constexpr std::uint32_t kFirstQ = 0;
-inline constexpr std::uint32_t kFirstQr = kFirstQ + parameter_count(klartext::QSpace::Q);
-inline constexpr std::uint32_t kFirstQl = kFirstQr + parameter_count(klartext::QSpace::Qr);
-inline constexpr std::uint32_t kFirstConstant = kFirstQl + parameter_count(klartext::QSpace::Ql);
+inline constexpr std::uint32_t kFirstQr = kFirstQ + parameter_count(QSpace::Q);
+inline constexpr std::uint32_t kFirstQl = kFirstQr + parameter_count(QSpace::Qr);
+inline constexpr std::uint32_t kFirstConstant = kFirstQl + parameter_count(QSpace::Ql);
 
 /// The cell of a numeric parameter. @pre not a QS.
-constexpr std::uint32_t cell_of(klartext::QRef parameter) {
+constexpr std::uint32_t cell_of(QRef parameter) {
   switch (parameter.space) {
-    case klartext::QSpace::Qr: return kFirstQr + parameter.number;
-    case klartext::QSpace::Ql: return kFirstQl + parameter.number;
+    case QSpace::Qr: return kFirstQr + parameter.number;
+    case QSpace::Ql: return kFirstQl + parameter.number;
     default: return kFirstQ + parameter.number;
   }
 }
 
 /// The parameter of a cell. @pre cell < kFirstConstant
-constexpr klartext::QRef parameter_of(std::uint32_t cell) {
-  if (cell >= kFirstQl) return {klartext::QSpace::Ql, static_cast<std::uint16_t>(cell - kFirstQl)};
-  if (cell >= kFirstQr) return {klartext::QSpace::Qr, static_cast<std::uint16_t>(cell - kFirstQr)};
-  return {klartext::QSpace::Q, static_cast<std::uint16_t>(cell)};
+constexpr QRef parameter_of(std::uint32_t cell) {
+  if (cell >= kFirstQl) return {QSpace::Ql, static_cast<std::uint16_t>(cell - kFirstQl)};
+  if (cell >= kFirstQr) return {QSpace::Qr, static_cast<std::uint16_t>(cell - kFirstQr)};
+  return {QSpace::Q, static_cast<std::uint16_t>(cell)};
 }
 
 /// Operations of an instruction on its operands `a`, `b` and its result or target `c`.
@@ -65,8 +65,8 @@ enum class Op : std::uint8_t {
 
 struct Instruction {
   Op op = Op::End;
-  klartext::Operator function{};  ///< of Compute
-  std::uint32_t blocks = 0;       ///< that this instruction begins, for the budget
+  Operator function{};       ///< of Compute
+  std::uint32_t blocks = 0;  ///< that this instruction begins, for the budget
   std::uint32_t a = 0;
   std::uint32_t b = 0;
   std::uint32_t c = 0;
@@ -97,12 +97,12 @@ struct LinkedParts {
 /// Immutable, so that any number of runs and threads may share it.
 class LinkedProgram {
  public:
-  LinkedProgram(ControlPath path, klartext::Program program, LinkedParts parts)
+  LinkedProgram(ControlPath path, Program program, LinkedParts parts)
       : path_(std::move(path)), program_(std::move(program)), parts_(std::move(parts)) {}
   LinkedProgram& operator=(LinkedProgram&&) = delete;  // neither copied nor moved
 
   const ControlPath& path() const { return path_; }
-  const klartext::Program& program() const { return program_; }
+  const Program& program() const { return program_; }
   bool is_inch() const { return program_.unit() == klartext::Unit::Inch; }
 
   const std::vector<Instruction>& code() const { return parts_.code; }
@@ -125,7 +125,7 @@ class LinkedProgram {
 
  private:
   ControlPath path_;
-  klartext::Program program_;
+  Program program_;
   LinkedParts parts_;
 };
 

@@ -1,20 +1,12 @@
 #include "nc/program/diagnose.hpp"
 #include "nc/program/link_check.hpp"
 #include "nc/program/lowering.hpp"
-#include "nc/program/parameter.hpp"
 #include "nc/program/program_cache.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
 
 using klartext::Block;
-using klartext::DiagnosticCode;
-using klartext::Expr;
-using klartext::Label;
-using klartext::Operator;
-using klartext::QRef;
-using klartext::Severity;
-using klartext::Text;
 
 /// Their counters are put aside with each call of a program.
 constexpr std::uint32_t kMostRepeats = 65'535;
@@ -26,7 +18,7 @@ bool is_dynamic(const Label& label) { return std::holds_alternative<QRef>(label)
 /// Turns the blocks of one program into code, in one pass, and fills in the jumps afterwards.
 class Linker {
  public:
-  Linker(const klartext::Program& program, LinkedFile& file)
+  Linker(const Program& program, LinkedFile& file)
       : program_(program), file_(file), writer_(program) {}
 
   /// Links the blocks; a program that is too large gives only the finding.
@@ -164,7 +156,7 @@ class Linker {
   }
 
   void lower_jump(std::uint32_t index, const klartext::ConditionalJump& jump) {
-    const auto node_index = std::get<klartext::NodeIndex>(jump.condition);
+    const auto node_index = std::get<NodeIndex>(jump.condition);
     const klartext::Node& node = program_.node(node_index);
     const auto operands = program_.operands(node_index);
     Instruction instruction{.op = Op::JumpWhen, .a = node_index.value};
@@ -263,7 +255,7 @@ class Linker {
   void collect_cells() {
     if (opened_ == nullptr || !is_one_table_ || path_of(*opened_).empty()) return;
     for (const auto& [block, read] : reads_) {
-      const auto cell = program_.operands(std::get<klartext::NodeIndex>(read->cell));
+      const auto cell = program_.operands(std::get<NodeIndex>(read->cell));
       const std::size_t before = file_.references.size();
       if (path_of(cell[1]).empty()) continue;
       add_reference(FileReference::Kind::Table, *opened_, *block);
@@ -297,18 +289,18 @@ class Linker {
     } else if (const auto* print = std::get_if<klartext::FormattedPrint>(&statement)) {
       add(Kind::Mask, print->mask);
     } else if (const auto* part = std::get_if<klartext::CyclePart>(&statement)) {
-      for (const klartext::Word& word : program_.view(part->words)) {
-        if (word.letter == klartext::Letter::Program) add(Kind::Program, word.value);
+      for (const Word& word : program_.view(part->words)) {
+        if (word.letter == Letter::Program) add(Kind::Program, word.value);
         constexpr double kAboveLabels = 65535;
         const auto* label = std::get_if<double>(&word.value);
-        if (part->number == 14 && word.letter == klartext::Letter::Value && label != nullptr)
+        if (part->number == 14 && word.letter == Letter::Value && label != nullptr)
           contours_.emplace_back(&block,
                                  static_cast<std::uint32_t>(std::clamp(*label, 0.0, kAboveLabels)));
       }
     }
   }
 
-  const klartext::Program& program_;
+  const Program& program_;
   LinkedFile& file_;
   CodeWriter writer_;
   LinkedParts parts_;
@@ -346,8 +338,8 @@ std::optional<std::uint32_t> lookup(const Map& map, const Key& key) {
 LinkedFile link(klartext::ParsedProgram parsed, const ControlPath& path) {
   LinkedFile file;
   file.diagnostics = std::move(parsed.diagnostics);
-  if (std::ranges::count(file.diagnostics, DiagnosticCode::ProgramTooLarge,
-                         &klartext::Diagnostic::code) > 0) {
+  if (std::ranges::count(file.diagnostics, DiagnosticCode::ProgramTooLarge, &Diagnostic::code) >
+      0) {
     return file;
   }
   LinkedParts parts = Linker(parsed.program, file).link();

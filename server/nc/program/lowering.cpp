@@ -1,14 +1,8 @@
 #include "nc/program/lowering.hpp"
 
-#include "nc/program/parameter.hpp"
-
 namespace fitgauge::interpreter {
 
-using klartext::Expr;
 using klartext::Node;
-using klartext::NodeIndex;
-using klartext::Operator;
-using klartext::QRef;
 
 void CodeWriter::begin_block(std::uint32_t index) {
   block_ = index;

@@ -10,7 +10,7 @@ namespace fitgauge::interpreter {
 /// code. Knows nothing of labels; jump targets are filled in by the linker.
 class CodeWriter {
  public:
-  explicit CodeWriter(const klartext::Program& program) : program_(program) {
+  explicit CodeWriter(const Program& program) : program_(program) {
     // Usually one instruction a block; unused reserved memory is never touched.
     code_.reserve(program.blocks().size());
     block_of_.reserve(program.blocks().size());
@@ -29,9 +29,9 @@ class CodeWriter {
   Instruction& at(std::uint32_t index) { return code_[index]; }
 
   /// The cell with the value of a numeric expression, after the code that computes it.
-  std::uint32_t value(const klartext::Expr& expr);
+  std::uint32_t value(const Expr& expr);
   /// Computes a numeric expression into a cell.
-  void assign(std::uint32_t target, const klartext::Expr& expr);
+  void assign(std::uint32_t target, const Expr& expr);
   std::uint32_t constant(double value);
 
   /// The most memory of the code while it is written.
@@ -56,9 +56,9 @@ class CodeWriter {
   static constexpr std::uint32_t kTemporaries = 1U << 31;
 
   std::uint32_t temporary();
-  void lower_node(std::uint32_t target, klartext::NodeIndex index);
+  void lower_node(std::uint32_t target, NodeIndex index);
 
-  const klartext::Program& program_;
+  const Program& program_;
   std::vector<Instruction> code_;
   std::vector<std::uint32_t> block_of_;
   std::vector<double> constants_;

@@ -1,18 +1,14 @@
 #include "nc/program/parameter.hpp"
 
 #include "base/number.hpp"
-#include "base/text.hpp"
 #include "nc/machine/geometry.hpp"
 #include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
 
-constexpr std::string_view prefix(klartext::QSpace space) {
-  return word_of(space, {"Q", "QL", "QR", "QS"});
-}
+constexpr std::string_view prefix(QSpace space) { return word_of(space, {"Q", "QL", "QR", "QS"}); }
 
-using klartext::Operator;
 using machine::degrees;
 using machine::sine_cosine;
 
@@ -46,11 +42,11 @@ double sign(double a) { return a == 0 ? 0 : std::copysign(1.0, a); }
 
 }  // namespace
 
-std::string name(klartext::QRef parameter) {
+std::string name(QRef parameter) {
   return std::string(prefix(parameter.space)) + std::to_string(parameter.number);
 }
 
-Result<klartext::QRef> parse_parameter_name(std::string_view text) {
+Result<QRef> parse_parameter_name(std::string_view text) {
   const auto malformed = [&] {
     return Error{
         ErrorCode::FieldInvalid,
@@ -58,12 +54,11 @@ Result<klartext::QRef> parse_parameter_name(std::string_view text) {
             "' is not a parameter: Q0 to Q1999, QL0 to QL499, QR0 to QR499, QS0 to QS1999"};
   };
   const std::string upper = ascii_upper(text);
-  for (const auto space :
-       {klartext::QSpace::Ql, klartext::QSpace::Qr, klartext::QSpace::Qs, klartext::QSpace::Q}) {
+  for (const auto space : {QSpace::Ql, QSpace::Qr, QSpace::Qs, QSpace::Q}) {
     if (!upper.starts_with(prefix(space))) continue;
     const auto number = read_number<std::uint16_t>(upper.substr(prefix(space).size()));
     if (!number || *number >= parameter_count(space)) break;
-    return klartext::QRef{space, *number};
+    return QRef{space, *number};
   }
   return malformed();
 }

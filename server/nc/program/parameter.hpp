@@ -1,28 +1,35 @@
 #pragma once
 
 #include "base/result.hpp"
-#include "nc/klartext/expression.hpp"
+#include "nc/klartext/diagnostic.hpp"
+#include "nc/klartext/syntax.hpp"
 #include "nc/machine/tolerance.hpp"
 
 namespace fitgauge::interpreter {
+
+// The language of the programs, whose names stand everywhere here.
+using klartext::Diagnostic, klartext::DiagnosticCode, klartext::DiagnosticEdit,
+    klartext::DiagnosticNote, klartext::Expr, klartext::Label, klartext::Letter,
+    klartext::NodeIndex, klartext::Operator, klartext::Program, klartext::QRef, klartext::QSpace,
+    klartext::Severity, klartext::Slice, klartext::Text, klartext::Word;
 
 /// Maximum number of characters (code points) of a QS.
 inline constexpr std::size_t kLongestString = 255;
 
 /// A parameter with its value: a number, or the string of a QS.
 struct ParameterValue {
-  klartext::QRef parameter;
+  QRef parameter;
   std::variant<double, std::string> value;
 
   friend bool operator==(const ParameterValue&, const ParameterValue&) = default;
 };
 
 /// "Q5", "QL3", "QR12", "QS1".
-std::string name(klartext::QRef parameter);
+std::string name(QRef parameter);
 
 /// Reads such a name, without regard to case.
 /// @errors FieldInvalid: not a parameter, or its number out of range.
-Result<klartext::QRef> parse_parameter_name(std::string_view text);
+Result<QRef> parse_parameter_name(std::string_view text);
 
 /// Whether a run may be started with that value: a finite number, or for a QS a text of at most
 /// 255 characters.
@@ -44,13 +51,13 @@ inline bool are_equal(double a, double b) {
 
 /// The operators with up to two numbers; those with one ignore a defined `b`. Angles in degrees.
 /// @pre is_arithmetic(op)
-double compute(klartext::Operator op, double a, double b);
+double compute(Operator op, double a, double b);
 
 /// Whether `compute` knows the operator.
-bool is_arithmetic(klartext::Operator op);
+bool is_arithmetic(Operator op);
 
 /// Returns the reason why `compute` gave a value that is not finite for defined operands: "division
 /// by zero".
-std::string failure(klartext::Operator op, double a, double b);
+std::string failure(Operator op, double a, double b);
 
 }  // namespace fitgauge::interpreter

@@ -14,7 +14,7 @@ struct FileReference {
   enum class Kind : std::uint8_t { Program, Table, Mask };
   Kind kind = Kind::Program;
   std::string written;
-  klartext::Diagnostic place;  ///< warning for a missing file, without its message
+  Diagnostic place;  ///< warning for a missing file, without its message
   /// Columns that FN 28 reads, such as `A,B`, and the row if it is a number.
   std::string columns{};
   std::optional<std::int64_t> row{};
@@ -30,9 +30,9 @@ struct LinkedFile {
   /// The program, with ERROR blocks for lines that are not Klartext (decision 32); null after other
   /// errors.
   std::shared_ptr<const LinkedProgram> with_error_blocks;
-  std::vector<klartext::Diagnostic> diagnostics;  ///< of the parser and the linker
-  std::vector<FileReference> references;          ///< the first 1000
-  std::size_t memory_bytes = 0;                   ///< its approximate memory
+  std::vector<Diagnostic> diagnostics;    ///< of the parser and the linker
+  std::vector<FileReference> references;  ///< the first 1000
+  std::size_t memory_bytes = 0;           ///< its approximate memory
 };
 
 /// Resolves labels, jumps, repeats and cycles and lowers the formulas of a parsed program.
@@ -75,11 +75,10 @@ class ProgramCache {
 /// program, table or mask, an unavailable cycle or M function, an ERROR block. Programs that are
 /// reached after `allowance` is spent are not checked, with a warning.
 /// @errors ProgramUnknown if there is no such file.
-Result<std::vector<klartext::Diagnostic>> check(const ControlPath& program, const ControlDisk& disk,
-                                                ProgramCache& programs, Allowance& allowance);
+Result<std::vector<Diagnostic>> check(const ControlPath& program, const ControlDisk& disk,
+                                      ProgramCache& programs, Allowance& allowance);
 
 /// @param keeps_unreadable lines that are no Klartext are ERROR blocks and no errors (decision 32).
-bool has_errors(const std::vector<klartext::Diagnostic>& diagnostics,
-                bool keeps_unreadable = false);
+bool has_errors(const std::vector<Diagnostic>& diagnostics, bool keeps_unreadable = false);
 
 }  // namespace fitgauge::interpreter

@@ -60,8 +60,8 @@ NcResult<std::shared_ptr<const LinkedProgram>> Channel::load_program(const Contr
   TRY(budget.check());
   const auto& program = linked->runnable(options.keeps_unreadable);
   if (program == nullptr) {
-    const auto first = std::ranges::find(linked->diagnostics, klartext::Severity::Error,
-                                         &klartext::Diagnostic::severity);
+    const auto first =
+        std::ranges::find(linked->diagnostics, Severity::Error, &Diagnostic::severity);
     return nc_error("program {} has errors, the first in line {}: {}", path.text(),
                     first->range.begin.line, first->message);
   }

@@ -19,7 +19,7 @@ class Channel {
 
   // --- the program that runs
   const LinkedProgram& linked() const { return calls.program(); }
-  const klartext::Program& program() const { return linked().program(); }
+  const Program& program() const { return linked().program(); }
   Place place() const { return {&linked(), block}; }
   /// Returns the block (for FN 14, the jump to it if every block is traced), then the blocks that
   /// called it.
@@ -28,7 +28,7 @@ class Channel {
   double length_unit() const { return linked().is_inch() ? 25.4 : 1.0; }
 
   machine::Machine& machine() const { return environment.machine; }
-  const machine::MachineState& state() const { return environment.machine.state(); }
+  const MachineState& state() const { return environment.machine.state(); }
   Timestamp now() const { return environment.clock.now(); }
 
   /// STOP, M0, M1: reported; the run continues, or ends by `on_stop`.

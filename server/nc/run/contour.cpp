@@ -4,14 +4,13 @@ namespace fitgauge::interpreter {
 namespace {
 
 using klartext::Path;
-using machine::Vec3;
 
 void set_sweep(Curve& curve) {
   if (!curve.is_arc()) return;
   curve.sweep_deg = sweep(curve.start, curve.end, *curve.centre, curve.is_left_turn());
 }
 
-Element along(const Curve& curve, const Element& before, const machine::Feed& feed) {
+Element along(const Curve& curve, const Element& before, const Feed& feed) {
   Element element{before.plane, curve, before.from, {}, feed, before.system, before.side};
   set_plane_target(element, curve.end);
   return element;
@@ -56,8 +55,8 @@ void Contour::compensate(klartext::RadiusCompensation compensation) {
                                                               : 0;
 }
 
-machine::Position Contour::position(const machine::Machine& machine) const {
-  machine::Position position = drawing_ ? drawing_->position() : machine.position();
+Position Contour::position(const machine::Machine& machine) const {
+  Position position = drawing_ ? drawing_->position() : machine.position();
   if (beside_ && (cutter_.is_pending() || position == beside_->tool))
     position = beside_->programmed;
   const Element* last = approach_ ? &approach_->to_start : kept_ ? &*kept_ : nullptr;
@@ -76,7 +75,7 @@ NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
   const bool is_beside = element.side != 0 || cutter_.side() != 0;
   if (!is_beside && (is_shifted_ || element.shift != Vec3{})) return move_shifted(machine, element);
   if (!is_beside) return move(machine, element);
-  machine::Position programmed = moved(position(machine), element.target);
+  Position programmed = moved(position(machine), element.target);
   programmed.linear = element.plane.with(programmed.linear, element.curve.end);
   TRY(cutter_.add(machine, element));
   has_entered_part = has_entered_part || machine.has_entered_part();
@@ -86,7 +85,7 @@ NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
 
 /// LN with DR: the tool is offset from the programmed path until a block without a normal.
 NcResult<void> Contour::move_shifted(machine::Machine& machine, Element element) {
-  const machine::Position programmed = moved(position(machine), element.target);
+  const Position programmed = moved(position(machine), element.target);
   for (std::size_t axis = 0; axis < 3; ++axis)
     element.target.values[axis] = programmed.linear[axis] + element.shift[axis];
   TRY(move(machine, element));
@@ -96,7 +95,7 @@ NcResult<void> Contour::move_shifted(machine::Machine& machine, Element element)
 }
 
 NcResult<void> Contour::add(machine::Machine& machine, Element element, bool corner_follows) {
-  if (element.system != machine::CoordinateSystem::Input) {
+  if (element.system != CoordinateSystem::Input) {
     if (drawing_) return nc_error("M91 and M92 are not allowed in the contour of an SL cycle");
     TRY(finish(machine));
     return move(machine, element);
@@ -119,8 +118,7 @@ NcResult<void> Contour::add(machine::Machine& machine, Element element, bool cor
   return cut(machine, element);
 }
 
-NcResult<void> Contour::set_corner(double size, bool is_chamfer,
-                                   std::optional<machine::Feed> feed) {
+NcResult<void> Contour::set_corner(double size, bool is_chamfer, std::optional<Feed> feed) {
   if (!kept_) return nc_error(1022, "RND and CHF must be between two positioning blocks");
   if (size <= 0) return nc_error(1022, "the radius or length must be greater than 0");
   corner_ = Corner{size, is_chamfer, feed};
@@ -151,7 +149,7 @@ NcResult<void> Contour::turn_corner(machine::Machine& machine, Element& next) {
   next.curve.start = between->end;
   set_sweep(next.curve);
   next.from = next.plane.with(next.from, between->end);
-  const machine::Feed feed = corner->feed.value_or(before.feed);
+  const Feed feed = corner->feed.value_or(before.feed);
   TRY(cut(machine, before));
   return cut(machine, along(*between, before, feed));
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "nc/klartext/statement.hpp"
 #include "nc/run/cutter_path.hpp"
 
 namespace fitgauge::interpreter {
@@ -17,7 +16,7 @@ struct SlContour {
 /// pocket, the other two an island; without RL and RR it is a pocket. An open contour is closed by
 /// a line.
 /// @errors those of its blocks; 1024 no such label, or it encloses nothing.
-NcResult<SlContour> read_contour(Channel& channel, const klartext::Label& label);
+NcResult<SlContour> read_contour(Channel& channel, const Label& label);
 
 /// The contour as the tool mills along it.
 struct SlPath {
@@ -47,7 +46,7 @@ class SlDrawing {
   NcResult<void> add(const Element& element);
 
   /// End of the last element, in the active coordinates.
-  machine::Position position() const;
+  Position position() const;
 
   const std::vector<Curve>& curves() const { return curves_; }
   /// 1 for RL, -1 for RR, seen in the system of the call; 0 for neither.
@@ -55,8 +54,8 @@ class SlDrawing {
 
  private:
   const machine::Machine* machine_;
-  machine::Frames begun_in_;
-  machine::Vec3 at_;  ///< in Machine coordinates
+  Frames begun_in_;
+  Vec3 at_;  ///< in Machine coordinates
   bool has_begun_ = false;
   std::vector<Curve> curves_;
   int side_ = 0;
@@ -76,22 +75,22 @@ class Contour {
  public:
   /// APPR LT, LN, CT, LCT: moves when the first contour element is known.
   struct Approach {
-    klartext::Path path{};   ///< of the Cartesian spelling
-    Element to_start;        ///< a line to the first point of the contour
-    double length = 0;       ///< LEN
-    double angle = 0;        ///< CCA
-    double radius = 0;       ///< R; negative: to the other side (APPR CT)
-    machine::Feed before{};  ///< of the previous block: the way to the start of APPR LT, LN and CT
+    klartext::Path path{};  ///< of the Cartesian spelling
+    Element to_start;       ///< a line to the first point of the contour
+    double length = 0;      ///< LEN
+    double angle = 0;       ///< CCA
+    double radius = 0;      ///< R; negative: to the other side (APPR CT)
+    Feed before{};          ///< of the previous block: the way to the start of APPR LT, LN and CT
   };
 
   /// End point of the last block in input coordinates, even if the machine has not reached it or
   /// the tool is offset.
-  machine::Position position(const machine::Machine& machine) const;
+  Position position(const machine::Machine& machine) const;
 
   /// Moves along an element, or keeps it when a corner follows (RND, CHF).
   NcResult<void> add(machine::Machine& machine, Element element, bool corner_follows);
   /// RND (`size` is the radius) or CHF (the side, decision 30) after the last element.
-  NcResult<void> set_corner(double size, bool is_chamfer, std::optional<machine::Feed> feed);
+  NcResult<void> set_corner(double size, bool is_chamfer, std::optional<Feed> feed);
   NcResult<void> add(machine::Machine& machine, Approach approach);
   /// DEP: moves to the end of the contour. @returns the position of the tool's centre.
   NcResult<Vec2> depart(machine::Machine& machine, const WorkingPlane& plane);
@@ -110,24 +109,24 @@ class Contour {
   /// 1 for R+, -1 for R-.
   int lengthening() const { return lengthening_; }
 
-  std::optional<Pole> pole;                ///< CC
-  std::optional<Vec2> last_polar;          ///< PR and PA of the last polar block since CC
-  std::optional<machine::Vec3> direction;  ///< of travel at the end of the last element
-  std::optional<machine::Feed> last_feed;  ///< of the last positioning block, FMAX among them
-  double tool_feed = 0;                    ///< F AUTO: the feed of TOOL CALL
-  bool feed_per_revolution = false;        ///< M136
-  bool has_entered_part = false;           ///< a cutter has, in rapid or not turning: to be noted
+  std::optional<Pole> pole;          ///< CC
+  std::optional<Vec2> last_polar;    ///< PR and PA of the last polar block since CC
+  std::optional<Vec3> direction;     ///< of travel at the end of the last element
+  std::optional<Feed> last_feed;     ///< of the last positioning block, FMAX among them
+  double tool_feed = 0;              ///< F AUTO: the feed of TOOL CALL
+  bool feed_per_revolution = false;  ///< M136
+  bool has_entered_part = false;     ///< a cutter has, in rapid or not turning: to be noted
 
  private:
   struct Corner {
     double size = 0;
     bool is_chamfer = false;
-    std::optional<machine::Feed> feed;
+    std::optional<Feed> feed;
   };
   /// Position of the programmed path while the tool is offset.
   struct Beside {
-    machine::Position programmed;
-    machine::Position tool;
+    Position programmed;
+    Position tool;
   };
 
   NcResult<void> move(machine::Machine& machine, const Element& element);

@@ -164,8 +164,6 @@ NcResult<std::vector<Lane>> clearing_lanes(const std::vector<SlContour>& contour
   return lanes;
 }
 
-using machine::Feed;
-
 /// The heights of cycle 20, and how a cycle infeeds between them.
 struct Depths {
   double surface;
@@ -197,7 +195,7 @@ class ContourCycle {
 
   NcResult<void> run() {
     if (depths_.is_empty()) return nc_error(1042, "Q1 leaves no depth");
-    for (const klartext::Label& label : channel_.active_cycle.contours) {
+    for (const Label& label : channel_.active_cycle.contours) {
       auto contour = TRY(read_contour(channel_, label));
       contours_.push_back(std::move(contour));
     }
@@ -281,7 +279,7 @@ class ContourCycle {
 
   /// 21: drills at the places where 22 plunges to mill along its contours with the tool Q13.
   NcResult<void> drill_starts() {
-    const machine::Tool* tool = roughing_tool();
+    const Tool* tool = roughing_tool();
     if (tool == nullptr) return nc_error(1003, "Q13 is not the number of a tool");
     for (const SlContour& contour : contours_) {
       const double reach = radius_in_plane(motion_.state(), tool->r + tool->dr) + data_.value(3);
@@ -303,7 +301,7 @@ class ContourCycle {
   }
 
   /// Q13, or the tool in the spindle.
-  const machine::Tool* roughing_tool() const {
+  const Tool* roughing_tool() const {
     const auto number = static_cast<int>(cycle_.value(13));
     if (number == 0) return motion_.state().active_tool();
     return motion_.state().tools.find(number);

@@ -29,15 +29,12 @@ void remove_plane_target(Element& element) {
   element.target.values[element.plane.second].reset();
 }
 
-using machine::Vec3;
-
 constexpr int kLeastHalvings = 2;
 constexpr int kMostHalvings = 12;
 
 class VectorPath {
  public:
-  VectorPath(const machine::MachineState& state, const Vec3& from, const Vec3& to,
-             RunBudget& budget)
+  VectorPath(const MachineState& state, const Vec3& from, const Vec3& to, RunBudget& budget)
       : state_(state),
         budget_(budget),
         first_(tool_at(from)),
@@ -76,7 +73,7 @@ class VectorPath {
     return table.inverse().direction(state_.kinematics.tool_direction(rotary, state_.tool_axis()));
   }
 
-  const machine::MachineState& state_;
+  const MachineState& state_;
   RunBudget& budget_;
   const Vec3 first_;
   const double angle_deg_;
@@ -85,7 +82,7 @@ class VectorPath {
 
 }  // namespace
 
-NcResult<void> check_scaling(const machine::MachineState& state, const WorkingPlane& plane,
+NcResult<void> check_scaling(const MachineState& state, const WorkingPlane& plane,
                              std::string_view what) {
   const Vec3 factor = state.frames.scaling().factor;
   if (factor[plane.first] == factor[plane.second]) return {};
@@ -100,7 +97,7 @@ NcResult<void> CutterPath::move(machine::Machine& machine, const Element& elemen
   if (!element.curve.is_arc()) return machine.move({element.target, element.feed, element.system});
   const WorkingPlane& plane = element.plane;
   TRY(check_scaling(machine.state(), plane, "an arc is"));
-  machine::Vec3 end = plane.with(machine.position().linear, element.curve.end);
+  Vec3 end = plane.with(machine.position().linear, element.curve.end);
   const auto normal = machine::index(plane.normal);
   if (const auto& height = element.target.values[normal]) end[normal] = *height;
   return machine.move_arc({end, plane.with(end, *element.curve.centre), element.curve.sweep_deg,
@@ -223,7 +220,7 @@ NcResult<void> CutterPath::finish(machine::Machine& machine) {
   return move_to(machine, end);
 }
 
-NcResult<std::vector<VectorStop>> vector_stops(const machine::MachineState& state, const Vec3& from,
+NcResult<std::vector<VectorStop>> vector_stops(const MachineState& state, const Vec3& from,
                                                const Vec3& to, RunBudget& budget) {
   VectorPath path(state, from, to, budget);
   if (!path.has_plane()) return std::vector<VectorStop>{{1, to}};

@@ -6,17 +6,21 @@
 
 namespace fitgauge::interpreter {
 
+using machine::Axis, machine::CoordinateSystem, machine::Feed, machine::Frames,
+    machine::MachineState, machine::Modes, machine::Position, machine::RotaryAxis, machine::Tool,
+    machine::Vec3;
+
 /// One positioning block as geometry: its curve in a plane and the axes it names, absolute, in mm
 /// and degrees.
 struct Element {
   WorkingPlane plane;
   Curve curve;
-  machine::Vec3 from;  ///< end of the previous block
+  Vec3 from;  ///< end of the previous block
   machine::AxisWords target;
-  machine::Feed feed;
-  machine::CoordinateSystem system = machine::CoordinateSystem::Input;
+  Feed feed;
+  CoordinateSystem system = CoordinateSystem::Input;
   int side = 0;  ///< of the contour that the tool is on: 1 left (RL), -1 right (RR), 0 on it
-  machine::Vec3 shift{};  ///< of the tool from the programmed path (LN with DR), without RL and RR
+  Vec3 shift{};  ///< of the tool from the programmed path (LN with DR), without RL and RR
 
   bool moves_in_plane() const {
     return curve.is_arc() || norm(curve.end - curve.start) > tolerance::kSamePoint;
@@ -25,18 +29,18 @@ struct Element {
 
 /// A radius of the tool as the working plane of the input system shows it: scaling (11, 26) does
 /// not scale the tool.
-inline double radius_in_plane(const machine::MachineState& state, double radius) {
+inline double radius_in_plane(const MachineState& state, double radius) {
   const WorkingPlane plane = WorkingPlane::across(state.tool_axis());
   return radius / std::abs(state.frames.scaling().factor[plane.first]);
 }
 
 /// @errors 1108 in a plane whose axes are scaled differently (26), where arcs are ellipses.
-NcResult<void> check_scaling(const machine::MachineState& state, const WorkingPlane& plane,
+NcResult<void> check_scaling(const MachineState& state, const WorkingPlane& plane,
                              std::string_view what);
 
 /// The position with the axes that words name.
-inline machine::Position moved(machine::Position position, const machine::AxisWords& words) {
-  for (const machine::Axis axis : machine::kAllAxes) {
+inline Position moved(Position position, const machine::AxisWords& words) {
+  for (const Axis axis : machine::kAllAxes) {
     if (const auto& value = words[axis]) position[axis] = *value;
   }
   return position;
@@ -95,7 +99,7 @@ class CutterPath {
 /// The rotary axes at a part of a block's way, from 0 to 1, in machine coordinates.
 struct VectorStop {
   double part;
-  machine::Vec3 rotary;
+  Vec3 rotary;
 };
 
 /// PATHCTRL VECTOR: the tool, seen from the workpiece, turns evenly in the plane of its first and
@@ -103,8 +107,7 @@ struct VectorStop {
 /// less than a thousandth of a degree, except next to a position where an axis turns without
 /// turning the tool. The last stop is `to`. @errors 1013 an axis does not reach a direction
 /// between.
-NcResult<std::vector<VectorStop>> vector_stops(const machine::MachineState& state,
-                                               const machine::Vec3& from, const machine::Vec3& to,
-                                               RunBudget& budget);
+NcResult<std::vector<VectorStop>> vector_stops(const MachineState& state, const Vec3& from,
+                                               const Vec3& to, RunBudget& budget);
 
 }  // namespace fitgauge::interpreter

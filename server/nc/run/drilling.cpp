@@ -4,8 +4,6 @@
 namespace fitgauge::interpreter {
 namespace {
 
-using machine::Feed;
-
 /// The infeeds of a hole: Q202 each, less by Q212 after each, not below Q205.
 class Infeed {
  public:
@@ -37,7 +35,7 @@ class Drilling {
 
   NcResult<void> run() {
     TRY(cycle_.start());
-    const machine::Modes before = motion_.state().modes;
+    const Modes before = motion_.state().modes;
     TRY(set_spindle(before, false));
     if (cycle_.value(379) != 0) {
       const double above = begin_ + cycle_.value(200);
@@ -58,7 +56,7 @@ class Drilling {
   }
   bool is_single_lip() const { return number_ == 241; }
   /// 241 drills at Q428 with coolant (Q429); it enters and leaves at Q427, the spindle by Q426.
-  NcResult<void> set_spindle(machine::Modes modes, bool drills) {
+  NcResult<void> set_spindle(Modes modes, bool drills) {
     using machine::SpindleState;
     if (!is_single_lip()) return {};
     modes.spindle_rpm = cycle_.value(drills ? 428 : 427);

@@ -28,7 +28,7 @@ class ChannelCycleHost final : public probing::CycleHost {
 
   void set_q(std::uint16_t number, double value, probing::Unit unit) override {
     const double scaled = value / scale_of(unit, channel_.linked().is_inch());
-    keep(channel_.parameters.set({klartext::QSpace::Q, number}, scaled));
+    keep(channel_.parameters.set({QSpace::Q, number}, scaled));
   }
 
   probing::CycleMemory& memory() override { return channel_.cycle_memory; }
@@ -225,7 +225,7 @@ NcResult<Next> execute_parts(Channel& channel, std::uint32_t first, std::uint32_
     auto definition = TRY(machining_arguments(channel, *machining, first, last));
     TRY(define(channel, std::move(definition)));
   } else {
-    std::vector<klartext::Word> words;
+    std::vector<Word> words;
     for (const auto& [part, word] : words_of_parts(channel, first, last)) words.push_back(word);
     TRY(execute_transformation(channel, opening.number, words));
   }
@@ -240,7 +240,7 @@ namespace {
 NcResult<Next> call_at_position(Channel& channel, const MotionWords& words) {
   TRY(channel.contour.finish(channel.machine()));
   machine::AxisWords target;
-  for (const machine::Axis axis : machine::kAllAxes) {
+  for (const Axis axis : machine::kAllAxes) {
     const auto& word = words.axes[machine::index(axis)];
     if (word) target[axis] = word->after(channel.machine().position()[axis]);
   }
@@ -253,10 +253,9 @@ NcResult<Next> call_at_position(Channel& channel, const MotionWords& words) {
     height.reset();
     ToolMotion motion(channel.machine(), channel.budget);
     const double clearance = machining->value(203) + machining->value(200);
-    if (motion.height() < machining->value(203))
-      TRY(motion.to_height(clearance, machine::Feed::rapid()));
+    if (motion.height() < machining->value(203)) TRY(motion.to_height(clearance, Feed::rapid()));
   }
-  const auto feed = words.feed.value_or(machine::Feed::rapid());
+  const auto feed = words.feed.value_or(Feed::rapid());
   const auto moved = channel.machine().move({target, feed});
   auto next = moved ? call_active_cycle(channel) : moved.error();
   if (is_shifted) machining->values[203] = surface;

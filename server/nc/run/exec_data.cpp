@@ -4,7 +4,7 @@
 namespace fitgauge::interpreter {
 namespace {
 
-NcResult<ControlPath> path(Channel& channel, const klartext::Expr& expr) {
+NcResult<ControlPath> path(Channel& channel, const Expr& expr) {
   const auto written = TRY(text(channel, expr));
   return channel.resolve(written);
 }
@@ -15,14 +15,12 @@ struct Cells {
   std::string columns;
 };
 
-NcResult<Cells> cells(Channel& channel, const klartext::Expr& expr) {
-  const auto operands = channel.program().operands(std::get<klartext::NodeIndex>(expr));
+NcResult<Cells> cells(Channel& channel, const Expr& expr) {
+  const auto operands = channel.program().operands(std::get<NodeIndex>(expr));
   const auto row = TRY(whole(channel, operands[0]));
   auto columns = TRY(text(channel, operands[1]));
   return Cells{row, std::move(columns)};
 }
-
-using klartext::QRef;
 
 /// The parameter `count` places after `first`. @errors beyond the last one.
 NcResult<QRef> after(QRef first, std::size_t count) {
@@ -31,8 +29,6 @@ NcResult<QRef> after(QRef first, std::size_t count) {
     return nc_error("there is no parameter {} places after {}", count, name(first));
   return QRef{first.space, static_cast<std::uint16_t>(place)};
 }
-
-using klartext::Label;
 
 /// The instruction of a label that is named by a parameter: `LBL QS5`, `LBL Q0`.
 NcResult<std::uint32_t> find_label(Channel& channel, const Label& label) {
@@ -112,11 +108,11 @@ NcResult<void> execute(Channel& channel, const klartext::CircleData& data) {
 
 NcResult<void> execute(Channel& channel, const klartext::SystemWrite& write) {
   const auto value = TRY(number(channel, write.value));
-  return write_system_data(channel, std::get<klartext::NodeIndex>(write.address), value);
+  return write_system_data(channel, std::get<NodeIndex>(write.address), value);
 }
 
 NcResult<Next> execute(Channel& channel, const klartext::ConditionalJump& jump) {
-  const auto holds = TRY(condition(channel, std::get<klartext::NodeIndex>(jump.condition)));
+  const auto holds = TRY(condition(channel, std::get<NodeIndex>(jump.condition)));
   if (!holds) return Next{};
   const auto target = TRY(find_label(channel, jump.target));
   return Next{Next::Kind::Jump, target};

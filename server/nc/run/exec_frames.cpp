@@ -4,17 +4,15 @@
 namespace fitgauge::interpreter {
 namespace {
 
-using klartext::Letter;
 using klartext::PlaneKind;
 using machine::Matrix3;
-using machine::Vec3;
 
 /// Words of PLANE by letter; a word without a value counts as 1.
 using PlaneWords = std::map<Letter, double>;
 
-NcResult<PlaneWords> read_plane_words(Channel& channel, klartext::Slice<klartext::Word> slice) {
+NcResult<PlaneWords> read_plane_words(Channel& channel, Slice<Word> slice) {
   PlaneWords words;
-  for (const klartext::Word& word : channel.program().view(slice)) {
+  for (const Word& word : channel.program().view(slice)) {
     if (is_absent(word.value)) {
       words[word.letter] = 1;
       continue;
@@ -61,7 +59,7 @@ Matrix3 current_rotation(const Channel& channel) {
 
 /// PLANE AXIAL: the plane across the tool with the rotary axes at these positions.
 NcResult<Matrix3> axial(const Channel& channel, const PlaneWords& words) {
-  const machine::MachineState& state = channel.state();
+  const MachineState& state = channel.state();
   Vec3 rotary = state.nose.rotary;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto it = words.find(static_cast<Letter>(i + 3));
@@ -125,9 +123,9 @@ NcResult<void> note_missing(Channel& channel, PlaneKind kind, const PlaneWords& 
 NcResult<PlaneMoves> moves_of(Channel& channel, const klartext::Plane& plane,
                               const PlaneWords& words) {
   PlaneMoves moves{.positioning = plane.positioning,
-                   .feed = machine::Feed::rapid(),
+                   .feed = Feed::rapid(),
                    .turns_table = words.contains(Letter::TableRot)};
-  for (const klartext::Word& word : channel.program().view(plane.words)) {
+  for (const Word& word : channel.program().view(plane.words)) {
     if (!klartext::kFeeds.contains(word.letter)) continue;
     moves.feed = TRY(read_feed(channel, word));
   }
@@ -180,8 +178,8 @@ NcResult<void> execute(Channel& channel, const klartext::Plane& plane) {
 NcResult<void> execute(Channel& channel, const klartext::FunctionTcpm& tcpm) {
   const std::string_view options = channel.program().text(tcpm.options);
   const auto says = [&](std::string_view words) { return options.find(words) != options.npos; };
-  const machine::MachineState& state = channel.state();
-  const machine::Tool* tool = state.active_tool();
+  const MachineState& state = channel.state();
+  const Tool* tool = state.active_tool();
   if (says("CENTER") && tool != nullptr && tool->r2 + tool->dr2 + state.tool.dr2 != 0) {
     return nc_error(
         "REFPNT is the tip here, and R2 of the tool is not 0: program the tip with REFPNT TIP-TIP");
@@ -194,7 +192,7 @@ NcResult<void> execute(Channel& channel, const klartext::FunctionTcpm& tcpm) {
   channel.spatial_angles.reset();
   if (says("AXIS SPAT")) channel.spatial_angles.emplace();
   channel.turns_along_vector = says("PATHCTRL VECTOR");
-  machine::Modes modes = state.modes;
+  Modes modes = state.modes;
   modes.tcpm = tcpm.active;
   return channel.machine().set_modes(modes);
 }

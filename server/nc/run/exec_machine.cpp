@@ -3,14 +3,11 @@
 namespace fitgauge::interpreter {
 namespace {
 
-using klartext::Expr;
-using klartext::Letter;
-
 /// The tool table's number of a tool given by number or name.
 NcResult<int> tool_number(Channel& channel, const Expr& tool) {
   if (is_text(tool)) {
     const auto name = TRY(text(channel, tool));
-    const machine::Tool* found = channel.state().tools.find(name);
+    const Tool* found = channel.state().tools.find(name);
     if (found == nullptr) return nc_error(1092, "tool \"{}\"", name);
     return found->number;
   }
@@ -24,8 +21,8 @@ NcResult<int> tool_number(Channel& channel, const Expr& tool) {
 /// Applies the values that FN 27 wrote to tool.t since the last TOOL CALL.
 NcResult<void> read_written_tools(Channel& channel) {
   for (const auto& [number, nr, value] : channel.tables.take_tool_cells()) {
-    const machine::Tool* found = channel.state().tools.find(number);
-    machine::Tool tool = found != nullptr ? *found : machine::Tool{};
+    const Tool* found = channel.state().tools.find(number);
+    Tool tool = found != nullptr ? *found : Tool{};
     tool.number = number;
     if (set_tool_value(tool, nr, value) == ToolWrite::OutOfRange)
       return nc_error(1093, "tool {}: tool.t holds {} in a column of whole numbers", number, value);
@@ -35,9 +32,9 @@ NcResult<void> read_written_tools(Channel& channel) {
   return {};
 }
 
-std::optional<machine::Axis> tool_axis(const std::optional<klartext::Axis>& axis) {
+std::optional<Axis> tool_axis(const std::optional<klartext::Axis>& axis) {
   if (!axis || *axis > klartext::Axis::Z) return std::nullopt;
-  return static_cast<machine::Axis>(*axis);
+  return static_cast<Axis>(*axis);
 }
 
 using klartext::Motion;
@@ -53,7 +50,7 @@ NcResult<void> note_entry(Channel& channel) {
 }
 
 NcResult<void> note_lathe_tool(Channel& channel) {
-  const machine::Tool* tool = channel.state().active_tool();
+  const Tool* tool = channel.state().active_tool();
   if (tool == nullptr || !tool->lathe || tool->lathe->xl + tool->lathe->dxl == 0) return {};
   return channel.note(
       "tool {} is a lathe tool: positioning blocks move the spindle axis here, without XL",
@@ -78,7 +75,7 @@ NcResult<void> execute(Channel& channel, const klartext::ToolCall& call) {
     command.dr2 = active.dr2;
   }
   const double unit = channel.length_unit();
-  for (const klartext::Word& word : channel.program().view(call.words)) {
+  for (const Word& word : channel.program().view(call.words)) {
     if (is_absent(word.value)) continue;
     const auto value = TRY(number(channel, word.value));
     switch (word.letter) {
@@ -108,10 +105,10 @@ NcResult<void> execute(Channel& channel, const klartext::ToolDefinition& definit
     channel.prepared_tool = number;
     return {};
   }
-  const machine::Tool* found = channel.state().tools.find(number);
-  machine::Tool tool = found != nullptr ? *found : machine::Tool{};
+  const Tool* found = channel.state().tools.find(number);
+  Tool tool = found != nullptr ? *found : Tool{};
   tool.number = number;
-  for (const klartext::Word& word : channel.program().view(definition.words)) {
+  for (const Word& word : channel.program().view(definition.words)) {
     const auto value = TRY(interpreter::number(channel, word.value));
     (word.letter == Letter::L ? tool.l : tool.r) = value * channel.length_unit();
   }

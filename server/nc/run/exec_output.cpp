@@ -12,7 +12,7 @@ using klartext::MaskLanguage;
 constexpr std::string_view kPrintFile = "%FN15RUN.A";
 
 /// Prints a number with its sign, a text unchanged.
-NcResult<std::string> printed(Channel& channel, const klartext::Expr& item) {
+NcResult<std::string> printed(Channel& channel, const Expr& item) {
   if (is_text(item)) return text(channel, item);
   const auto value = TRY(number(channel, item));
   // Four decimals without trailing zeros, as controls print them.
@@ -91,7 +91,7 @@ NcResult<void> execute(Channel& channel, const klartext::ErrorStop& stop) {
 
 NcResult<void> execute(Channel& channel, const klartext::Print& print) {
   std::string line;
-  for (const klartext::Expr& item : channel.program().view(print.items)) {
+  for (const Expr& item : channel.program().view(print.items)) {
     const auto part = TRY(printed(channel, item));
     if (!line.empty()) line += "  ";
     line += part;
@@ -121,7 +121,7 @@ NcResult<void> execute(Channel& channel, const klartext::ExternalFunction& funct
 }
 
 NcResult<void> execute(Channel& channel, const klartext::BlankForm&) {
-  const auto value = [&](const klartext::Expr& written) {
+  const auto value = [&](const Expr& written) {
     const auto known = number(channel, written);
     return known ? std::optional(*known) : std::nullopt;
   };

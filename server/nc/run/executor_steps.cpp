@@ -10,8 +10,8 @@ NcError ExecutorSteps::value_error(const Instruction& instruction) const {
   const double b = cells_[instruction.b];
   if (!is_defined(a)) return undefined_error(parameter_of(instruction.a));
   if (!is_defined(b)) return undefined_error(parameter_of(instruction.b));
-  return nc_error(failure(
-      instruction.op == Op::Divide ? klartext::Operator::Divide : instruction.function, a, b));
+  return nc_error(
+      failure(instruction.op == Op::Divide ? Operator::Divide : instruction.function, a, b));
 }
 
 /// Returns whether the control gives the undefined operand a value.
@@ -56,7 +56,7 @@ bool ExecutorSteps::evaluate_node(const Instruction* pc) {
     error_ = checked.error();
     return false;
   }
-  const auto value = evaluate(channel_, klartext::NodeIndex{pc->a});
+  const auto value = evaluate(channel_, NodeIndex{pc->a});
   if (!value) {
     error_ = value.error();
     return false;
@@ -68,7 +68,7 @@ bool ExecutorSteps::evaluate_node(const Instruction* pc) {
 const Instruction* ExecutorSteps::jump_when(const Instruction* pc) {
   enter(pc);
   if (auto checked = channel_.budget.check(); !checked) return fail(checked.error());
-  const auto holds = condition(channel_, klartext::NodeIndex{pc->a});
+  const auto holds = condition(channel_, NodeIndex{pc->a});
   if (!holds) return fail(holds.error());
   return *holds ? code_ + pc->c : pc + 1;
 }

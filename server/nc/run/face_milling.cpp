@@ -45,8 +45,8 @@ NcResult<void> mill_face(Machining& cycle) {
   const Lanes lanes = lanes_of(cycle, radius);
   const bool line_by_line = cycle.value(389) == 2;
   const auto to_next = cycle.feed(cycle.value(389) == 1 ? 207 : 253);
-  if (cycle.height() < heights.second) TRY(cycle.to_height(heights.second, machine::Feed::rapid()));
-  TRY(cycle.to_point(lanes.first, machine::Feed::rapid()));
+  if (cycle.height() < heights.second) TRY(cycle.to_height(heights.second, Feed::rapid()));
+  TRY(cycle.to_point(lanes.first, Feed::rapid()));
   const double rough = std::min(heights.surface, heights.bottom + cycle.value(369));
   const double least = cycle.value(202) > 0 ? cycle.value(202) : heights.surface - rough;
   const double infeeds =
@@ -74,7 +74,7 @@ NcResult<void> mill_face(Machining& cycle) {
       if (!line_by_line) to_far = !to_far;
     }
   }
-  return cycle.to_height(heights.second, machine::Feed::rapid());
+  return cycle.to_height(heights.second, Feed::rapid());
 }
 
 }  // namespace fitgauge::interpreter

@@ -9,7 +9,6 @@ namespace {
 using klartext::MaskConversion;
 using klartext::MaskKeyword;
 using klartext::MaskPlaceholder;
-using klartext::QRef;
 
 using Value = std::variant<double, std::string>;
 
@@ -125,8 +124,8 @@ NcResult<std::shared_ptr<const klartext::MaskFile>> FormattedPrinter::mask(
     const auto file = files_.find(path);
     if (!file) return nc_error("mask {} does not exist", path.text());
     auto parsed = klartext::parse_mask(*file->bytes, file->path.text());
-    const auto error = std::ranges::find(parsed.diagnostics, klartext::Severity::Error,
-                                         &klartext::Diagnostic::severity);
+    const auto error =
+        std::ranges::find(parsed.diagnostics, Severity::Error, &Diagnostic::severity);
     if (error != parsed.diagnostics.end())
       return nc_error("mask {} line {}: {}", path.text(), error->range.begin.line, error->message);
     known = {file->revision, std::make_shared<const klartext::MaskFile>(std::move(parsed.mask))};

@@ -4,9 +4,6 @@ namespace fitgauge::interpreter {
 namespace {
 
 using klartext::PlanePositioning;
-using machine::Axis;
-using machine::Frames;
-using machine::Vec3;
 
 template <class Change>
 NcResult<void> change_frames(Channel& channel, const Change& change) {
@@ -17,7 +14,7 @@ NcResult<void> change_frames(Channel& channel, const Change& change) {
 
 /// TABLE ROT (decision 31): the table axis next to the workpiece is free if it is parallel to the
 /// tool in the plane. It turns until the plane's main axis is along the machine's.
-void turn_free_axis(const machine::MachineState& state, const Frames& plane, Vec3& rotary) {
+void turn_free_axis(const MachineState& state, const Frames& plane, Vec3& rotary) {
   const auto& axes = state.kinematics.axes();
   const auto next_to_workpiece = std::find_if(axes.rbegin(), axes.rend(), [](const auto& axis) {
     return axis.mount == machine::AxisMount::Table;
@@ -40,7 +37,7 @@ void turn_free_axis(const machine::MachineState& state, const Frames& plane, Vec
 
 /// SEQ and SYM: the first axis that is not C, of the head from the tool, has a sign of its angle
 /// from 0 or from the middle of its range.
-bool is_on_side(const machine::MachineState& state, const PlaneMoves& moves, const Vec3& rotary) {
+bool is_on_side(const MachineState& state, const PlaneMoves& moves, const Vec3& rotary) {
   const auto& axes = state.kinematics.axes();
   const auto primary =
       std::find_if(axes.begin(), axes.end(), [](const auto& axis) { return axis.axis != Axis::C; });
@@ -55,7 +52,7 @@ bool is_on_side(const machine::MachineState& state, const PlaneMoves& moves, con
 /// requests.
 NcResult<std::optional<Vec3>> rotary_positions(Channel& channel, const Frames& frames,
                                                const PlaneMoves& moves) {
-  const machine::MachineState& state = channel.state();
+  const MachineState& state = channel.state();
   Frames plane;
   plane.set_preset(frames.preset());
   plane.set_plane(frames.plane());
@@ -78,7 +75,7 @@ NcResult<std::optional<Vec3>> rotary_positions(Channel& channel, const Frames& f
 }
 
 /// Along the tool to the spindle, in input coordinates, with the rotary axes at `rotary`.
-Vec3 tool_at(const machine::MachineState& state, const Vec3& rotary) {
+Vec3 tool_at(const MachineState& state, const Vec3& rotary) {
   Frames on_table = state.frames;
   on_table.set_table({});
   const Vec3 tool = state.kinematics.tool_direction(rotary, state.tool_axis());
@@ -90,17 +87,16 @@ Vec3 tool_at(const machine::MachineState& state, const Vec3& rotary) {
 NcResult<void> turn(Channel& channel, const Vec3& rotary, const PlaneMoves& moves) {
   machine::Machine& machine = channel.machine();
   if (moves.retraction) TRY(retract(channel, *moves.retraction));
-  const machine::Modes before = machine.state().modes;
-  machine::Modes during = before;
+  const Modes before = machine.state().modes;
+  Modes during = before;
   during.tcpm = moves.positioning == PlanePositioning::Move;
   TRY(machine.set_modes(during));
-  const Vec3 shown =
-      machine.state().frames.rotary_from_machine(rotary, machine::CoordinateSystem::Input);
+  const Vec3 shown = machine.state().frames.rotary_from_machine(rotary, CoordinateSystem::Input);
   machine::AxisWords target;
-  for (const machine::RotaryAxis& axis : machine.state().kinematics.axes())
+  for (const RotaryAxis& axis : machine.state().kinematics.axes())
     target[axis.axis] = shown[machine::index(axis.axis) - 3];
   if (during.tcpm && moves.distance != 0) {
-    const machine::MachineState& state = machine.state();
+    const MachineState& state = machine.state();
     const Vec3 swing = tool_at(state, rotary) - tool_at(state, state.nose.rotary);
     const Vec3 tip = machine.position().linear + swing * moves.distance;
     for (std::size_t axis = 0; axis < 3; ++axis) target.values[axis] = tip[axis];
@@ -121,8 +117,8 @@ NcResult<void> apply(Channel& channel, const Frames& frames, const std::optional
 }
 
 /// The datum shift relative to the workpiece system, tilted or not.
-machine::Position untilted_shift(const Frames& frames) {
-  machine::Position shift = frames.datum_shift();
+Position untilted_shift(const Frames& frames) {
+  Position shift = frames.datum_shift();
   if (frames.plane()) shift.linear = frames.plane()->origin;
   return shift;
 }
@@ -131,7 +127,7 @@ machine::Position untilted_shift(const Frames& frames) {
 
 NcResult<void> shift_datum(Channel& channel, const AxisCoordinates& axes) {
   return change_frames(channel, [&](Frames& frames) {
-    machine::Position shift = frames.datum_shift();
+    Position shift = frames.datum_shift();
     for (const Axis axis : machine::kAllAxes) {
       const auto& word = axes[machine::index(axis)];
       if (word) shift[axis] = word->after(shift[axis]);
@@ -174,7 +170,7 @@ NcResult<void> scale(Channel& channel, const machine::Scaling& scaling) {
 
 NcResult<void> tilt(Channel& channel, const machine::Matrix3& rotation, const PlaneMoves& moves) {
   Frames frames = channel.state().frames;
-  machine::Position shift = untilted_shift(frames);
+  Position shift = untilted_shift(frames);
   frames.set_plane(machine::TiltedPlane{machine::spatial_angles(rotation), shift.linear});
   shift.linear = {};
   frames.set_datum_shift(shift);
@@ -184,10 +180,10 @@ NcResult<void> tilt(Channel& channel, const machine::Matrix3& rotation, const Pl
 
 NcResult<void> reset_tilt(Channel& channel, const PlaneMoves& moves) {
   Frames frames = channel.state().frames;
-  const machine::Position shift = untilted_shift(frames);
+  const Position shift = untilted_shift(frames);
   frames.set_plane(std::nullopt);
   frames.set_datum_shift(shift);
-  const Vec3 home = frames.rotary_to_machine({}, machine::CoordinateSystem::Workpiece);
+  const Vec3 home = frames.rotary_to_machine({}, CoordinateSystem::Workpiece);
   return apply(channel, frames, home, moves);
 }
 

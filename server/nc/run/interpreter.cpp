@@ -54,7 +54,7 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
     static_assert(std::size(kStatuses) == static_cast<std::size_t>(FaultKind::Cancelled) + 1);
     const FaultKind kind = ending_of(ending.error->kind);
     result.status = kStatuses[static_cast<std::size_t>(kind)];
-    std::vector<klartext::DiagnosticNote> origins;
+    std::vector<DiagnosticNote> origins;
     if (kind == FaultKind::Error) {
       origins = origins_of(channel.chain(), *ending.error);
     } else if (kind == FaultKind::Stop && ending.error->number != 0) {
@@ -72,7 +72,7 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
   result.files = channel.files.take();
   result.tables = channel.tables.opened();
   channel.log.take(result);
-  const machine::MachineState& state = environment.machine.state();
+  const MachineState& state = environment.machine.state();
   result.machining_time_s = state.elapsed_s;
   result.active_preset = state.active_preset;
   for (const auto& [number, row] : state.presets.rows()) result.presets.push_back(row);

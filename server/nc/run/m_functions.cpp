@@ -8,7 +8,7 @@ namespace {
 using machine::SpindleState;
 
 /// Sets the modes of the machine that the block changes.
-NcResult<void> set_modes(Channel& channel, const machine::Modes& modes) {
+NcResult<void> set_modes(Channel& channel, const Modes& modes) {
   if (modes == channel.state().modes) return {};
   TRY(channel.machine().set_modes(modes));
   update_preassigned(channel);
@@ -25,7 +25,7 @@ SpindleState stopped(SpindleState state) {
 
 /// Returns the distance that the spindle nose can move along `direction` (machine coordinates)
 /// before an axis reaches its limit.
-double room(const machine::MachineState& state, const machine::Vec3& direction) {
+double room(const MachineState& state, const Vec3& direction) {
   double room = std::numeric_limits<double>::infinity();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto& range = state.ranges[axis];
@@ -41,17 +41,16 @@ double room(const machine::MachineState& state, const machine::Vec3& direction) 
 NcResult<void> retract(Channel& channel, const MCall& call) {
   if (!call.to_limit && call.length.value_or(-1) < 0)
     return nc_error(1011, "a retraction needs MB with a length, or MB MAX");
-  const machine::MachineState& state = channel.state();
-  const machine::Vec3 direction = state.tool_direction(machine::CoordinateSystem::Reference);
+  const MachineState& state = channel.state();
+  const Vec3 direction = state.tool_direction(CoordinateSystem::Reference);
   const double length = call.to_limit ? room(state, direction) : call.length.value_or(0);
-  const machine::Vec3 target = state.nose.linear + direction * length;
+  const Vec3 target = state.nose.linear + direction * length;
   return channel.machine().move({machine::AxisWords::linear(target),
-                                 call.feed.value_or(machine::Feed::rapid()),
-                                 machine::CoordinateSystem::Reference});
+                                 call.feed.value_or(Feed::rapid()), CoordinateSystem::Reference});
 }
 
 NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& calls) {
-  machine::Modes modes = channel.state().modes;
+  Modes modes = channel.state().modes;
   for (const MCall& call : calls) {
     switch (call.number) {
       case 13: modes.coolant = true; [[fallthrough]];
@@ -80,7 +79,7 @@ NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& cal
 }
 
 NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words) {
-  machine::Modes modes = channel.state().modes;
+  Modes modes = channel.state().modes;
   bool stops = false;
   bool ends = false;
   bool calls_cycle = channel.active_cycle.after_every_block && words.names_axes();

@@ -6,7 +6,7 @@ namespace fitgauge::interpreter {
 namespace {
 
 /// Cycle 240 may define the diameter of the countersink instead of its depth.
-double depth(const MachiningDefinition& definition, const machine::Tool* tool) {
+double depth(const MachiningDefinition& definition, const Tool* tool) {
   if (definition.value(343) != 1) return definition.value(201);
   const double point = tool == nullptr ? 0 : tool->point_angle;
   if (point <= 0 || point >= 180) return 0;
@@ -52,7 +52,7 @@ NcResult<void> note_standing(Channel& channel, const MachiningCycle& cycle) {
 }
 
 NcResult<void> note_probe(Channel& channel, const MachiningCycle& cycle) {
-  const machine::MachineState& state = channel.state();
+  const MachineState& state = channel.state();
   if (!state.probe_system()) return {};
   return channel.note("cycle {} machines with the touch probe, tool {}: call a cutter",
                       cycle.descriptor.number, state.tool.number);
@@ -65,7 +65,7 @@ ToolMotion::ToolMotion(machine::Machine& machine, RunBudget& budget)
       budget_(budget),
       plane_(WorkingPlane::across(machine.state().tool_axis())) {}
 
-NcResult<void> ToolMotion::to_height(double height, const machine::Feed& feed) {
+NcResult<void> ToolMotion::to_height(double height, const Feed& feed) {
   TRY(budget_.check());
   if (std::abs(height - this->height()) < tolerance::kSamePoint) return {};
   machine::AxisWords target;
@@ -73,7 +73,7 @@ NcResult<void> ToolMotion::to_height(double height, const machine::Feed& feed) {
   return machine_.move({target, feed});
 }
 
-NcResult<void> ToolMotion::to_point(Vec2 point, const machine::Feed& feed) {
+NcResult<void> ToolMotion::to_point(Vec2 point, const Feed& feed) {
   TRY(budget_.check());
   if (norm(point - this->point()) < tolerance::kSamePoint) return {};
   machine::AxisWords target;
@@ -83,10 +83,10 @@ NcResult<void> ToolMotion::to_point(Vec2 point, const machine::Feed& feed) {
 }
 
 NcResult<void> ToolMotion::arc(Vec2 centre, Vec2 end, double sweep_deg, double height,
-                               const machine::Feed& feed) {
+                               const Feed& feed) {
   TRY(budget_.check());
   TRY(check_scaling(state(), plane_, "an arc is"));
-  machine::Vec3 target = plane_.with(machine_.position().linear, end);
+  Vec3 target = plane_.with(machine_.position().linear, end);
   target[machine::index(plane_.normal)] = height;
   return machine_.move_arc({target, plane_.with(target, centre), sweep_deg, plane_.normal, feed});
 }
@@ -96,7 +96,7 @@ NcResult<void> ToolMotion::dwell(double seconds) {
   return seconds > 0 ? machine_.dwell(seconds) : NcResult<void>();
 }
 
-NcResult<void> ToolMotion::set_modes(const machine::Modes& modes) {
+NcResult<void> ToolMotion::set_modes(const Modes& modes) {
   return modes == state().modes ? NcResult<void>() : machine_.set_modes(modes);
 }
 
@@ -106,17 +106,15 @@ double ToolMotion::height() const {
   return machine_.position().linear[machine::index(plane_.normal)];
 }
 
-machine::Feed feed_of(double rate) {
-  return std::isinf(rate) ? machine::Feed::rapid() : machine::Feed::at(rate);
-}
+Feed feed_of(double rate) { return std::isinf(rate) ? Feed::rapid() : Feed::at(rate); }
 
 Machining::Machining(const ToolMotion& tool, const MachiningDefinition& defined)
     : ToolMotion(tool), definition(defined), heights(heights_of(defined, tool)) {}
 
-machine::Feed Machining::feed(int parameter) const { return feed_of(value(parameter)); }
+Feed Machining::feed(int parameter) const { return feed_of(value(parameter)); }
 
-machine::Feed Machining::retraction() const {
-  if (!definition.gives(208)) return machine::Feed::rapid();
+Feed Machining::retraction() const {
+  if (!definition.gives(208)) return Feed::rapid();
   return feed(value(208) > 0 ? 208 : 206);
 }
 
@@ -127,12 +125,12 @@ NcResult<void> Machining::start() {
     return nc_error(1042, "Q201 is 0");
   }
   if (definition.cycle->descriptor.dotted) return {};  // the tool stands there
-  return to_height(heights.clearance, machine::Feed::rapid());
+  return to_height(heights.clearance, Feed::rapid());
 }
 
 NcResult<void> Machining::leave() {
   if (heights.second <= heights.clearance) return {};
-  return to_height(heights.second, machine::Feed::rapid());
+  return to_height(heights.second, Feed::rapid());
 }
 
 NcResult<void> check_values(const MachiningDefinition& definition) {

@@ -34,8 +34,8 @@ struct ActiveCycle {
   /// Numbers for FN 18 ID 10: the last call-active cycle and the last TCH PROBE.
   int number = -1;
   int last_probing = -1;
-  std::vector<machine::Vec3> pattern{};               ///< PATTERN DEF: X, Y, and in Z its surface
-  std::vector<klartext::Label> contours{};            ///< cycle 14
+  std::vector<Vec3> pattern{};                        ///< PATTERN DEF: X, Y, and in Z its surface
+  std::vector<Label> contours{};                      ///< cycle 14
   std::optional<MachiningDefinition> contour_data{};  ///< cycle 20
 };
 
@@ -47,19 +47,18 @@ class ToolMotion {
   /// Both must outlive this object. The plane is that of the current tool.
   ToolMotion(machine::Machine& machine, RunBudget& budget);
 
-  NcResult<void> to_height(double height, const machine::Feed& feed);
-  NcResult<void> to_point(Vec2 point, const machine::Feed& feed);
+  NcResult<void> to_height(double height, const Feed& feed);
+  NcResult<void> to_point(Vec2 point, const Feed& feed);
   /// Moves around `centre` to `end` and `height`; a sweep beyond 360 degrees is a helix.
-  NcResult<void> arc(Vec2 centre, Vec2 end, double sweep_deg, double height,
-                     const machine::Feed& feed);
+  NcResult<void> arc(Vec2 centre, Vec2 end, double sweep_deg, double height, const Feed& feed);
   /// Waits; does nothing for 0.
   NcResult<void> dwell(double seconds);
-  NcResult<void> set_modes(const machine::Modes& modes);
+  NcResult<void> set_modes(const Modes& modes);
 
   Vec2 point() const;
   double height() const;
   const WorkingPlane& plane() const { return plane_; }
-  const machine::MachineState& state() const { return machine_.state(); }
+  const MachineState& state() const { return machine_.state(); }
   /// Returns the radius in the plane; scaling does not scale the tool.
   double tool_radius() const { return radius_in_plane(state(), state().tool_radius()); }
 
@@ -86,14 +85,14 @@ struct Machining : ToolMotion {
 
   Machining(const ToolMotion& tool, const MachiningDefinition& defined);
   double value(int parameter) const { return definition.value(parameter); }
-  machine::Feed feed(int parameter) const;
+  Feed feed(int parameter) const;
   /// Q208; for 0 the feed of plunging (decision 30); rapid without it.
-  machine::Feed retraction() const;
+  Feed retraction() const;
   NcResult<void> start();
   NcResult<void> leave();
 };
 
-machine::Feed feed_of(double rate);
+Feed feed_of(double rate);
 
 // drilling.cpp
 /// Stop distance of 1 and 21 above the drilled depth: a fiftieth of the hole, from 0.6 to 7 mm.
@@ -150,7 +149,7 @@ NcResult<MachiningDefinition> machining_arguments(Channel& channel, const klarte
 /// A word of a cycle in sub-lines.
 struct PartWord {
   int part;
-  klartext::Word word;
+  Word word;
 };
 /// All words of a cycle in sub-lines, from block `first` to `last`.
 std::vector<PartWord> words_of_parts(const Channel& channel, std::uint32_t first,
@@ -166,7 +165,7 @@ NcResult<probing::Arguments> dotted_arguments(Channel& channel,
                                               std::uint32_t first, std::uint32_t last);
 
 /// The labels of cycle 14.
-NcResult<std::vector<klartext::Label>> contour_labels(Channel& channel, std::uint32_t first,
-                                                      std::uint32_t last);
+NcResult<std::vector<Label>> contour_labels(Channel& channel, std::uint32_t first,
+                                            std::uint32_t last);
 
 }  // namespace fitgauge::interpreter

@@ -4,8 +4,6 @@ namespace fitgauge::interpreter {
 namespace {
 
 using klartext::CycleValue;
-using klartext::Letter;
-using klartext::Word;
 using probing::ParameterId;
 
 /// FU is a feed a turn of the spindle, FZ a tooth.
@@ -19,7 +17,7 @@ NcResult<double> number_value(Channel& channel, const klartext::CycleParameter& 
   if (!value || written.kind == CycleValue::Expression) return value;
   double feed = *value * channel.length_unit() * channel.state().modes.spindle_rpm;
   if (written.kind == CycleValue::Fz) {
-    const machine::Tool* tool = channel.state().active_tool();
+    const Tool* tool = channel.state().active_tool();
     feed *= tool == nullptr ? 0 : tool->teeth;
   }
   return feed;
@@ -113,8 +111,8 @@ class DottedReader {
   }
 
   NcResult<void> read_result(const Word& word, int part) {
-    const auto* parameter = std::get_if<klartext::QRef>(&word.value);
-    if (parameter == nullptr || parameter->space != klartext::QSpace::Q)
+    const auto* parameter = std::get_if<QRef>(&word.value);
+    if (parameter == nullptr || parameter->space != QSpace::Q)
       return nc_error("the result of a touch-probe cycle must be a Q parameter");
     if (find(ParameterId::WordResult, part) != nullptr)
       arguments_.set(ParameterId::WordResult, static_cast<double>(parameter->number));
@@ -246,9 +244,9 @@ NcResult<probing::Arguments> dotted_arguments(Channel& channel,
   return reader.take();
 }
 
-NcResult<std::vector<klartext::Label>> contour_labels(Channel& channel, std::uint32_t first,
-                                                      std::uint32_t last) {
-  std::vector<klartext::Label> labels;
+NcResult<std::vector<Label>> contour_labels(Channel& channel, std::uint32_t first,
+                                            std::uint32_t last) {
+  std::vector<Label> labels;
   for (const auto& [part, word] : words_of_parts(channel, first, last)) {
     if (part == 0 || word.letter != Letter::Value) continue;
     const auto label = TRY(whole(channel, word.value));

@@ -4,8 +4,6 @@
 namespace fitgauge::interpreter {
 namespace {
 
-using machine::Feed;
-
 /// Counter-clockwise inside for climb milling, which M3 and Q351 = 1 ask for.
 double turn_inside(const Machining& cycle) { return cycle.value(351) < 0 ? -1 : 1; }
 

@@ -7,36 +7,32 @@
 namespace fitgauge::interpreter {
 namespace {
 
-using klartext::Letter;
-using klartext::Word;
-
 /// The feed of FU (mm per revolution) and FZ (mm per tooth).
 double feed_of_revolutions(const Channel& channel, double per_revolution) {
   return per_revolution * channel.state().modes.spindle_rpm;
 }
 
 int teeth(const Channel& channel) {
-  const machine::Tool* tool = channel.state().active_tool();
+  const Tool* tool = channel.state().active_tool();
   return tool == nullptr ? 0 : tool->teeth;
 }
 
 }  // namespace
 
-NcResult<machine::Feed> read_feed(Channel& channel, const Word& word) {
+NcResult<Feed> read_feed(Channel& channel, const Word& word) {
   if (word.letter == Letter::Ft || word.letter == Letter::FMaxT)
     return nc_error("FT and FMAXT, the time of a block, are not available: give the feed F");
-  if (word.letter == Letter::FMax) return machine::Feed::rapid();
-  if (word.letter == Letter::FAuto) return machine::Feed::at(channel.contour.tool_feed);
+  if (word.letter == Letter::FMax) return Feed::rapid();
+  if (word.letter == Letter::FAuto) return Feed::at(channel.contour.tool_feed);
   const auto value = TRY(number(channel, word.value));
   const double unit = channel.length_unit();
-  if (word.letter == Letter::Fu)
-    return machine::Feed::at(feed_of_revolutions(channel, value * unit));
+  if (word.letter == Letter::Fu) return Feed::at(feed_of_revolutions(channel, value * unit));
   if (word.letter == Letter::Fz)
-    return machine::Feed::at(feed_of_revolutions(channel, value * unit * teeth(channel)));
+    return Feed::at(feed_of_revolutions(channel, value * unit * teeth(channel)));
   if (channel.contour.feed_per_revolution)
-    return machine::Feed::at(feed_of_revolutions(channel, value * unit));
+    return Feed::at(feed_of_revolutions(channel, value * unit));
   // In INCH programs F counts tenths of an inch a minute.
-  return machine::Feed::at(channel.linked().is_inch() ? value * unit / 10 : value);
+  return Feed::at(channel.linked().is_inch() ? value * unit / 10 : value);
 }
 
 namespace {
@@ -123,14 +119,14 @@ bool MotionWords::has_m(int number) const {
   return std::ranges::count(m, number, &MCall::number) > 0;
 }
 
-NcResult<machine::Axis> machine_axis(Letter letter) {
-  if (letter <= Letter::C) return static_cast<machine::Axis>(letter);
+NcResult<Axis> machine_axis(Letter letter) {
+  if (letter <= Letter::C) return static_cast<Axis>(letter);
   constexpr std::string_view kNames = "XYZABCUVW";
   return machine::make_fault(machine::FaultKind::AxisMissing,
                              kNames.substr(static_cast<std::size_t>(letter), 1));
 }
 
-NcResult<MotionWords> read_words(Channel& channel, klartext::Slice<Word> words) {
+NcResult<MotionWords> read_words(Channel& channel, Slice<Word> words) {
   MotionWords out;
   const Word* feed = nullptr;
   for (const Word& word : channel.program().view(words)) {
@@ -148,9 +144,9 @@ NcResult<MotionWords> read_words(Channel& channel, klartext::Slice<Word> words) 
   return out;
 }
 
-NcResult<machine::Feed> use_feed(Channel& channel, const std::optional<machine::Feed>& written) {
-  machine::Modes modes = channel.state().modes;
-  if (!written) return machine::Feed::at(modes.feed_mm_min);
+NcResult<Feed> use_feed(Channel& channel, const std::optional<Feed>& written) {
+  Modes modes = channel.state().modes;
+  if (!written) return Feed::at(modes.feed_mm_min);
   if (!written->is_rapid && written->rate != modes.feed_mm_min) {
     modes.feed_mm_min = written->rate;
     TRY(channel.machine().set_modes(modes));

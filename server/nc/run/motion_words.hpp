@@ -44,10 +44,10 @@ struct MotionWords {
 
 /// @errors an axis that the machine does not have, an unavailable M function; decision 18 applies
 ///   to coordinates, decision 3 to all others.
-NcResult<MotionWords> read_words(Channel& channel, klartext::Slice<klartext::Word> words);
+NcResult<MotionWords> read_words(Channel& channel, Slice<Word> words);
 
 /// F, FMAX, FAUTO, FU or FZ as mm/min. @errors FT and FMAXT.
-NcResult<machine::Feed> read_feed(Channel& channel, const klartext::Word& word);
+NcResult<machine::Feed> read_feed(Channel& channel, const Word& word);
 
 /// The feed of a block: its word, which becomes modal unless it is FMAX, or the modal feed.
 NcResult<machine::Feed> use_feed(Channel& channel, const std::optional<machine::Feed>& written);
@@ -56,7 +56,7 @@ NcResult<machine::Feed> use_feed(Channel& channel, const std::optional<machine::
 NcResult<void> position(Channel& channel, const klartext::Motion& motion, const MotionWords& words);
 
 /// @errors AxisMissing for U, V, W, which the simulated machine does not have.
-NcResult<machine::Axis> machine_axis(klartext::Letter letter);
+NcResult<machine::Axis> machine_axis(Letter letter);
 
 // tool_orientation.cpp
 /// A, B and C as spatial angles of the tool (FUNCTION TCPM AXIS SPAT), each as it was programmed
@@ -74,7 +74,7 @@ std::optional<machine::Vec3> rotary_along(const machine::MachineState& state,
 
 /// TX TY TZ or NX NY NZ of an LN block, by their first letter. @errors it has no length.
 NcResult<std::optional<machine::Vec3>> vector_of(Channel& channel, const klartext::Motion& motion,
-                                                 klartext::Letter first);
+                                                 Letter first);
 
 /// Adds the positions of the rotary axes to a block that defines the tool's direction in the input
 /// system: LN by its tool vector, else by its normal, any line by spatial angles. Of the positions

@@ -7,10 +7,6 @@ namespace fitgauge::interpreter {
 namespace {
 
 using klartext::Block;
-using klartext::Letter;
-using klartext::Program;
-using klartext::QRef;
-using klartext::Word;
 
 template <class T>
 const T* as(const Block& block) {
@@ -18,18 +14,18 @@ const T* as(const Block& block) {
 }
 
 std::span<const Word> words_of(const Program& program, const Block& block) {
-  const auto words = [](const auto& statement) -> klartext::Slice<Word> {
+  const auto words = [](const auto& statement) -> Slice<Word> {
     if constexpr (requires { statement.words; }) return statement.words;
     return {};
   };
   return program.view(std::visit(words, block.statement));
 }
 
-void read(const Program& program, const klartext::Expr& value, std::vector<QRef>& all) {
+void read(const Program& program, const Expr& value, std::vector<QRef>& all) {
   if (const auto* parameter = std::get_if<QRef>(&value)) {
     if (std::ranges::find(all, *parameter) == all.end()) all.push_back(*parameter);
-  } else if (const auto* node = std::get_if<klartext::NodeIndex>(&value)) {
-    for (const klartext::Expr& operand : program.operands(*node)) read(program, operand, all);
+  } else if (const auto* node = std::get_if<NodeIndex>(&value)) {
+    for (const Expr& operand : program.operands(*node)) read(program, operand, all);
   }
 }
 
@@ -62,7 +58,7 @@ bool sets(const Program&, const Block& block, QRef parameter) {
   if (const auto* table = as<klartext::TableRead>(block)) return table->first == parameter;
   const auto* known = descriptor_of(block);
   return known != nullptr && std::ranges::any_of(known->results, [&](const auto& each) {
-           return parameter == QRef{klartext::QSpace::Q, each.q};
+           return parameter == QRef{QSpace::Q, each.q};
          });
 }
 
@@ -84,10 +80,9 @@ bool begins_part(const Program& program, const Block& block, const klartext::Lab
   const auto* label = as<klartext::LabelDefinition>(block);
   if (label == nullptr)
     return std::ranges::any_of(words_of(program, block), [](const Word& word) {
-      return word.letter == Letter::M &&
-             (word.value == klartext::Expr(2.0) || word.value == klartext::Expr(30.0));
+      return word.letter == Letter::M && (word.value == Expr(2.0) || word.value == Expr(30.0));
     });
-  if (label->label == klartext::Label(0U)) return true;
+  if (label->label == Label(0U)) return true;
   return call != nullptr && call->label == label->label;
 }
 
@@ -104,7 +99,7 @@ bool calls_cycle(const Program& program, const Block& block) {
   return as<klartext::CycleCall>(block) != nullptr ||
          std::ranges::any_of(words_of(program, block), [](const Word& word) {
            return word.letter == Letter::M &&
-                  (word.value == klartext::Expr(99.0) || word.value == klartext::Expr(89.0));
+                  (word.value == Expr(99.0) || word.value == Expr(89.0));
          });
 }
 
@@ -145,8 +140,8 @@ bool writes_preset(const Program&, const Block& block) {
 /// Whether it reads data of the control, such as FN 18 of a position.
 bool reads_control(const Program& program, const Block& block) {
   const auto* set = as<klartext::Assignment>(block);
-  const auto* node = set == nullptr ? nullptr : std::get_if<klartext::NodeIndex>(&set->value);
-  return node != nullptr && program.node(*node).op == klartext::Operator::SystemRead;
+  const auto* node = set == nullptr ? nullptr : std::get_if<NodeIndex>(&set->value);
+  return node != nullptr && program.node(*node).op == Operator::SystemRead;
 }
 
 class Origins {
@@ -186,7 +181,7 @@ class Origins {
     notes.push_back({what + " set here", {{line, 1}, {line, 1}}, program});
   }
 
-  std::vector<klartext::DiagnosticNote> notes;
+  std::vector<DiagnosticNote> notes;
 
  private:
   /// Goes back to the nearest block of the part that sets something, or of a subprogram that it has
@@ -240,7 +235,7 @@ class Origins {
     const auto blocks = linked.program().blocks();
     for (std::uint32_t i = linked.block_of(*first); i < blocks.size() && left_ > 0; ++i, --left_) {
       const auto* label = as<klartext::LabelDefinition>(blocks[i]);
-      if (label != nullptr && label->label == klartext::Label(0U)) return i;
+      if (label != nullptr && label->label == Label(0U)) return i;
     }
     return std::nullopt;
   }
@@ -257,8 +252,7 @@ class Origins {
 };
 
 /// @param error null for values
-std::vector<klartext::DiagnosticNote> find_origins(std::span<const Place> chain,
-                                                   const NcError* error) {
+std::vector<DiagnosticNote> find_origins(std::span<const Place> chain, const NcError* error) {
   constexpr std::uint32_t kMostForError = 1'000'000;
   constexpr std::uint32_t kMostForValues = 5'000;  // there may be many of them
   Origins origins(chain, error != nullptr ? kMostForError : kMostForValues);
@@ -325,12 +319,11 @@ std::vector<klartext::DiagnosticNote> find_origins(std::span<const Place> chain,
 
 }  // namespace
 
-std::vector<klartext::DiagnosticNote> origins_of(std::span<const Place> chain,
-                                                 const NcError& error) {
+std::vector<DiagnosticNote> origins_of(std::span<const Place> chain, const NcError& error) {
   return find_origins(chain, &error);
 }
 
-std::vector<klartext::DiagnosticNote> origins_of_values(std::span<const Place> chain) {
+std::vector<DiagnosticNote> origins_of_values(std::span<const Place> chain) {
   const Program& program = chain.front().program->program();
   const Block& block = chain.front().source();
   const auto* known = descriptor_of(block);

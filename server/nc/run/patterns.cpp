@@ -4,8 +4,6 @@
 namespace fitgauge::interpreter {
 namespace {
 
-using machine::Feed;
-
 /// 220: on a circle. A full turn has no point twice.
 std::vector<Vec2> circle_points(const MachiningDefinition& pattern) {
   const auto count = static_cast<int>(pattern.value(241, 1));
@@ -42,9 +40,7 @@ std::vector<Vec2> grid_points(const MachiningDefinition& pattern) {
 /// More points than these make no pattern.
 constexpr double kMostPoints = 100'000;
 
-using klartext::Letter;
 using klartext::PatternElement;
-using klartext::Word;
 
 constexpr std::size_t kMostPatternPoints = 10'000;
 
@@ -65,7 +61,7 @@ struct PatternPart {
 constexpr klartext::LetterSet kLengths(Letter::X, Letter::Y, Letter::Z, Letter::D, Letter::Dx,
                                        Letter::Dy);
 
-NcResult<std::vector<PatternPart>> read_elements(Channel& channel, klartext::Slice<Word> slice) {
+NcResult<std::vector<PatternPart>> read_elements(Channel& channel, Slice<Word> slice) {
   std::vector<PatternPart> elements;
   const auto words = channel.program().view(slice);
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -136,7 +132,7 @@ std::vector<Vec2> points_of(const PatternPart& element) {
 
 NcResult<void> execute(Channel& channel, const klartext::PatternDefinition& pattern) {
   const auto elements = TRY(read_elements(channel, pattern.words));
-  std::vector<machine::Vec3> all;
+  std::vector<Vec3> all;
   for (const PatternPart& element : elements) {
     const Vec2 start{element.get(Letter::X), element.get(Letter::Y)};
     for (const Vec2 point : points_of(element)) {
@@ -187,7 +183,7 @@ NcResult<void> run_points(Channel& channel) {
     return nc_error(1017, "CYCL CALL PAT needs a PATTERN DEF before it");
   const auto points = channel.active_cycle.pattern;
   ToolMotion motion(channel.machine(), channel.budget);
-  for (const machine::Vec3& point : points) {
+  for (const Vec3& point : points) {
     MachiningDefinition cycle = *active;
     cycle.values[203] = active->value(203) + point.z;
     const double height = cycle.value(203) + std::max(cycle.value(200), cycle.value(204));

@@ -5,7 +5,6 @@ namespace fitgauge::interpreter {
 namespace {
 
 using klartext::Path;
-using machine::CoordinateSystem;
 
 /// Whether RND or CHF is the next block that is not a comment.
 bool corner_follows(const Channel& channel) {
@@ -64,17 +63,17 @@ class Positioning {
  private:
   Contour& contour() { return channel_.contour; }
 
-  NcResult<machine::Feed> block_feed() {
-    if (contour().drawing() != nullptr) return machine::Feed::rapid();
+  NcResult<Feed> block_feed() {
+    if (contour().drawing() != nullptr) return Feed::rapid();
     const auto feed = use_feed(channel_, words_.feed);
     if (feed) contour().last_feed = *feed;
     return feed;
   }
 
   /// The axes the block names, absolute.
-  machine::AxisWords target(const machine::Position& from) const {
+  machine::AxisWords target(const Position& from) const {
     machine::AxisWords target;
-    for (const machine::Axis axis : machine::kAllAxes) {
+    for (const Axis axis : machine::kAllAxes) {
       if (const auto& word = words_.axes[machine::index(axis)])
         target[axis] = word->after(from[axis]);
     }
@@ -95,7 +94,7 @@ class Positioning {
     return WorkingPlane::spanned_by(tool_axis, first ? working.first : working.second);
   }
 
-  bool is_polar() const { return klartext::words_of(motion_.path).contains(klartext::Letter::Pr); }
+  bool is_polar() const { return klartext::words_of(motion_.path).contains(Letter::Pr); }
 
   /// End of the block in the working plane. @errors no pole.
   NcResult<Vec2> end_point() {
@@ -144,7 +143,7 @@ class Positioning {
 
   /// A pole is no motion, so decision 3 applies to its coordinates.
   NcResult<void> set_pole() {
-    for (const klartext::Word& word : channel_.program().view(motion_.words)) {
+    for (const Word& word : channel_.program().view(motion_.words)) {
       if (!is_axis(word.letter) || is_absent(word.value)) continue;
       TRY(number(channel_, word.value));
     }
@@ -157,11 +156,11 @@ class Positioning {
     Pole pole{working, {}};
     if (count == 2) {
       const std::size_t left_out = !named[0] ? 0 : !named[1] ? 1 : 2;
-      pole.plane = WorkingPlane::across(static_cast<machine::Axis>(left_out));
+      pole.plane = WorkingPlane::across(static_cast<Axis>(left_out));
     } else if (count == 1 && before) {
       pole.plane = before->plane;
     }
-    machine::Vec3 point = position_.linear;
+    Vec3 point = position_.linear;
     if (count == 1 && before) point = pole.plane.with(point, before->point);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!named[axis]) continue;
@@ -204,26 +203,24 @@ class Positioning {
 
   /// PATHCTRL VECTOR: adds the line in pieces, if it turns the tool.
   NcResult<void> add_along_vector(const Element& line) {
-    const machine::MachineState& state = channel_.state();
-    const machine::Position end = moved(position_, line.target);
-    const auto to_machine = [&](const machine::Vec3& rotary) {
+    const MachineState& state = channel_.state();
+    const Position end = moved(position_, line.target);
+    const auto to_machine = [&](const Vec3& rotary) {
       return state.frames.rotary_to_machine(rotary, CoordinateSystem::Input);
     };
     const auto stops = TRY(
         vector_stops(state, to_machine(position_.rotary), to_machine(end.rotary), channel_.budget));
     if (stops.size() == 1) return move_along(line);
-    const machine::Vec3 shifted = contour().side() == 0
-                                      ? channel_.machine().position().linear - position_.linear
-                                      : machine::Vec3{};
+    const Vec3 shifted =
+        contour().side() == 0 ? channel_.machine().position().linear - position_.linear : Vec3{};
     Element piece = line;
     for (const VectorStop& stop : stops) {
       const bool is_last = stop.part == 1;
-      const machine::Vec3 point =
+      const Vec3 point =
           is_last ? end.linear : position_.linear + (end.linear - position_.linear) * stop.part;
-      const machine::Vec3 rotary =
-          state.frames.rotary_from_machine(stop.rotary, CoordinateSystem::Input);
+      const Vec3 rotary = state.frames.rotary_from_machine(stop.rotary, CoordinateSystem::Input);
       for (std::size_t axis = 0; axis < 3; ++axis) piece.target.values[axis] = point[axis];
-      for (const machine::RotaryAxis& axis : state.kinematics.axes())
+      for (const RotaryAxis& axis : state.kinematics.axes())
         piece.target[axis.axis] = rotary[machine::index(axis.axis) - 3];
       piece.curve.end = plane_.project(point);
       piece.shift = shifted + (line.shift - shifted) * stop.part;
@@ -236,11 +233,11 @@ class Positioning {
   }
 
   /// LN: from the programmed path, the tool's DR along the surface's normal.
-  NcResult<machine::Vec3> shift_of_surface() {
-    const auto normal = TRY(vector_of(channel_, motion_, klartext::Letter::Nx));
-    if (!normal || contour().side() != 0) return machine::Vec3{};
-    const machine::MachineState& state = channel_.state();
-    const machine::Tool* tool = state.active_tool();
+  NcResult<Vec3> shift_of_surface() {
+    const auto normal = TRY(vector_of(channel_, motion_, Letter::Nx));
+    if (!normal || contour().side() != 0) return Vec3{};
+    const MachineState& state = channel_.state();
+    const Tool* tool = state.active_tool();
     const double oversize = state.tool.dr + (tool == nullptr ? 0 : tool->dr);
     return machine::unit(*normal) * radius_in_plane(state, oversize);
   }
@@ -327,7 +324,7 @@ class Positioning {
     set_plane_target(to_start, end);
     // F of APPR LCT applies to its whole way, of the others to the second part.
     const bool is_whole = !before || cartesian() == Path::ApprLct;
-    const machine::Feed first_part = is_whole ? to_start.feed : *before;
+    const Feed first_part = is_whole ? to_start.feed : *before;
     return contour().add(
         channel_.machine(),
         Contour::Approach{cartesian(), to_start, words_.len.value_or(0), words_.cca.value_or(0),
@@ -379,7 +376,7 @@ class Positioning {
   Channel& channel_;
   const klartext::Motion& motion_;
   const MotionWords& words_;
-  const machine::Position position_;
+  const Position position_;
   const WorkingPlane plane_;
   const Vec2 start_;
 };

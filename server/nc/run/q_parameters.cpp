@@ -4,9 +4,6 @@
 
 namespace fitgauge::interpreter {
 
-using klartext::QRef;
-using klartext::QSpace;
-
 QParameters::QParameters()
     : cells_(kFirstConstant, kUndefined), strings_(parameter_count(QSpace::Qs)) {}
 

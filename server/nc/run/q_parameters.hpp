@@ -1,7 +1,6 @@
 #pragma once
 
 #include "nc/program/linked_program.hpp"
-#include "nc/program/parameter.hpp"
 #include "nc/run/nc_error.hpp"
 
 namespace fitgauge::interpreter {
@@ -16,9 +15,9 @@ class QParameters {
   double* cells() { return cells_.data(); }
 
   /// Returns the value; none if it is undefined. @pre not a QS
-  std::optional<double> number(klartext::QRef parameter) const;
+  std::optional<double> number(QRef parameter) const;
   /// @errors when the value is not finite.
-  NcResult<void> set(klartext::QRef parameter, double value);
+  NcResult<void> set(QRef parameter, double value);
   /// @pre `value` is finite
   void set_q(std::uint16_t number, double value);
 
@@ -27,8 +26,8 @@ class QParameters {
   /// @errors when it has more than 255 characters.
   NcResult<void> set_string(std::uint16_t number, std::string value);
 
-  void undefine(klartext::QRef parameter);
-  bool is_defined(klartext::QRef parameter) const;
+  void undefine(QRef parameter);
+  bool is_defined(QRef parameter) const;
 
   /// State that a call of another program saves: the QL and the counters of repeats.
   std::vector<double> save_locals(const LinkedProgram& program) const;
@@ -39,13 +38,13 @@ class QParameters {
   std::vector<ParameterValue> all() const;
 
  private:
-  static constexpr std::size_t kLocals = parameter_count(klartext::QSpace::Ql);
+  static constexpr std::size_t kLocals = parameter_count(QSpace::Ql);
 
   std::vector<double> cells_;
   std::vector<std::optional<std::string>> strings_;
 };
 
 /// The error of reading it: decision 3.
-NcError undefined_error(klartext::QRef parameter);
+NcError undefined_error(QRef parameter);
 
 }  // namespace fitgauge::interpreter

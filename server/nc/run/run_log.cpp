@@ -15,11 +15,10 @@ std::string_view word(MessageKind kind) {
   return word_of(kind, {"error", "stop", "limit", "cancelled", "note"});
 }
 
-std::vector<klartext::Diagnostic> findings_of(const RunResult& result) {
+std::vector<Diagnostic> findings_of(const RunResult& result) {
   constexpr double kFar = 0.5;  // mm
-  std::vector<klartext::Diagnostic> found;
-  const auto add = [&](const auto& at, klartext::Severity severity, klartext::DiagnosticCode code,
-                       std::string text) {
+  std::vector<Diagnostic> found;
+  const auto add = [&](const auto& at, Severity severity, DiagnosticCode code, std::string text) {
     if (found.size() >= kMostFindings) return;
     found.push_back(
         {severity, code, std::move(text), at.program, {{at.line, 1}, {at.line, 1}}, at.block});
@@ -32,9 +31,8 @@ std::vector<klartext::Diagnostic> findings_of(const RunResult& result) {
                          (message.kind == MessageKind::Stop && message.number != 0);
     if (!is_note && message.kind != MessageKind::Error && message.kind != MessageKind::Limit)
       continue;
-    add(message, is_note ? klartext::Severity::Note : klartext::Severity::Error,
-        is_note ? klartext::DiagnosticCode::RunNoted : klartext::DiagnosticCode::RunFailed,
-        message.text);
+    add(message, is_note ? Severity::Note : Severity::Error,
+        is_note ? DiagnosticCode::RunNoted : DiagnosticCode::RunFailed, message.text);
   }
   for (const Measurement& each : result.measurements) {
     const auto& sizes = each.record.sizes;  // positions come last, and belong to a size
@@ -43,7 +41,7 @@ std::vector<klartext::Diagnostic> findings_of(const RunResult& result) {
       const double measured = size.measured.to_mm();
       const double nominal = size.nominal.to_mm();
       if (std::abs(measured - nominal) <= kFar) continue;
-      add(each, klartext::Severity::Warning, klartext::DiagnosticCode::SetupContradicts,
+      add(each, Severity::Warning, DiagnosticCode::SetupContradicts,
           fmt::format("{} of cycle {} is {} mm on the part of the setup, but {} mm in the program: "
                       "correct one of them",
                       size.characteristic, each.record.cycle, measured, nominal));
@@ -82,8 +80,7 @@ NcResult<void> RunLog::note(std::string text, const Place& place) {
   return report(MessageKind::Note, 0, std::move(text), place);
 }
 
-void RunLog::finish(const NcError& error, const Place& place,
-                    std::vector<klartext::DiagnosticNote> origins) {
+void RunLog::finish(const NcError& error, const Place& place, std::vector<DiagnosticNote> origins) {
   static_assert(static_cast<int>(MessageKind::Cancelled) == static_cast<int>(FaultKind::Cancelled));
   add(static_cast<MessageKind>(ending_of(error.kind)), error.number, error.text, place);
   messages_.back().origins = std::move(origins);
@@ -102,11 +99,11 @@ void RunLog::add(MessageKind kind, int number, std::string text, const Place& pl
 NcResult<void> RunLog::record(probing::MeasuringRecord record, std::span<const Place> chain) {
   probing::judge_by_uncertainty(record);
   const Place& place = chain.front();
-  std::vector<klartext::DiagnosticNote> origins;
+  std::vector<DiagnosticNote> origins;
   if (measurements_.size() < kMostFindings) origins = origins_of_values(chain);
   const std::size_t size = sizeof(Measurement) + place.path().size() +
                            record.sizes.size() * sizeof(probing::MeasuredSize) +
-                           origins.size() * sizeof(klartext::DiagnosticNote);
+                           origins.size() * sizeof(DiagnosticNote);
   TRY(budget_.charge(size));
   measurements_.push_back({std::move(record), std::string(place.path()), place.line(),
                            place.block(), std::move(origins)});

@@ -84,8 +84,7 @@ class RunLog {
   /// Something the simulation leaves out: reported the first time only. @errors limit.
   NcResult<void> note(std::string text, const Place& place);
   /// The message of the error that ends the run; not charged, so that it is always there.
-  void finish(const NcError& error, const Place& place,
-              std::vector<klartext::DiagnosticNote> origins);
+  void finish(const NcError& error, const Place& place, std::vector<DiagnosticNote> origins);
   /// @param chain as of origins_of_values. @errors limit.
   NcResult<void> record(probing::MeasuringRecord record, std::span<const Place> chain);
 
@@ -108,10 +107,9 @@ class RunLog {
 /// from them, on axes that it does not move, datum, tool and unit INCH. Names for each the block
 /// that ran last before it, as far as the calls of subprograms tell this.
 /// @param chain the failing block, then the blocks after the calls that lead to it
-std::vector<klartext::DiagnosticNote> origins_of(std::span<const Place> chain,
-                                                 const NcError& error);
+std::vector<DiagnosticNote> origins_of(std::span<const Place> chain, const NcError& error);
 
 /// The blocks that the values of a block depend on, if it measures or reads data of the control.
-std::vector<klartext::DiagnosticNote> origins_of_values(std::span<const Place> chain);
+std::vector<DiagnosticNote> origins_of_values(std::span<const Place> chain);
 
 }  // namespace fitgauge::interpreter

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "nc/klartext/diagnostic.hpp"
-#include "nc/klartext/syntax.hpp"
 #include "nc/machine/machine_state.hpp"
 #include "nc/probing/measuring_record.hpp"
 #include "nc/program/control_disk.hpp"
@@ -37,7 +35,7 @@ struct RunMessage {
   std::optional<std::uint32_t> block;  ///< its number, as written or counted
   std::uint32_t column = 0;            ///< from 1, of the block in that line; 0: no line is meant
   std::string source{};                ///< the physical line, cut if it is long
-  std::vector<klartext::DiagnosticNote> origins{};  ///< of what ended the run
+  std::vector<DiagnosticNote> origins{};  ///< of what ended the run
 
   friend bool operator==(const RunMessage&, const RunMessage&) = default;
 };
@@ -60,7 +58,7 @@ struct Measurement {
   std::string program;
   std::uint32_t line = 0;
   std::optional<std::uint32_t> block;
-  std::vector<klartext::DiagnosticNote> origins{};  ///< of the first kMostFindings
+  std::vector<DiagnosticNote> origins{};  ///< of the first kMostFindings
 };
 
 /// All results of a run; complete also if it failed.
@@ -84,7 +82,7 @@ struct RunResult {
 /// The findings of a run on a setup: an error that ended it, its notes, a note for a cycle that
 /// stopped it at a limit, and a warning for every size or centre of a bore, stud, slot or ridge
 /// that is measured more than 0.5 mm from its nominal.
-std::vector<klartext::Diagnostic> findings_of(const RunResult& result);
+std::vector<Diagnostic> findings_of(const RunResult& result);
 
 class CallStack;
 class LinkedProgram;

@@ -75,21 +75,21 @@ void begin_in_the_middle(std::vector<Curve>& curves) {
   curves.push_back(last);
 }
 
-std::optional<std::uint32_t> find_label(const Channel& channel, const klartext::Label& label) {
+std::optional<std::uint32_t> find_label(const Channel& channel, const Label& label) {
   const auto* number = std::get_if<std::uint32_t>(&label);
   return number == nullptr ? std::nullopt : channel.linked().label(*number);
 }
 
-bool are_the_same(const machine::Frames& a, const machine::Frames& b) {
+bool are_the_same(const Frames& a, const Frames& b) {
   return a.datum_shift() == b.datum_shift() && a.mirror() == b.mirror() &&
          a.rotation() == b.rotation() && a.scaling() == b.scaling();
 }
 
 /// Transformations apply only in the subprogram.
-NcResult<SlDrawing> draw(Channel& channel, const klartext::Label& label) {
+NcResult<SlDrawing> draw(Channel& channel, const Label& label) {
   const auto first = find_label(channel, label);
   if (!first) return nc_error(1024, "a contour label of cycle 14 is not defined in this program");
-  const machine::Frames frames = channel.state().frames;
+  const Frames frames = channel.state().frames;
   const Contour path = std::exchange(channel.contour, Contour());
   channel.contour.tool_feed = path.tool_feed;
   channel.contour.pole = path.pole;
@@ -105,7 +105,7 @@ NcResult<SlDrawing> draw(Channel& channel, const klartext::Label& label) {
 
 }  // namespace
 
-NcResult<SlContour> read_contour(Channel& channel, const klartext::Label& label) {
+NcResult<SlContour> read_contour(Channel& channel, const Label& label) {
   auto drawing = TRY(draw(channel, label));
   SlContour contour;
   contour.curves = drawing.curves();
@@ -135,8 +135,8 @@ SlPath path_along(const SlContour& contour, double reach, bool is_climb) {
   return path;
 }
 
-machine::Position SlDrawing::position() const {
-  machine::Position position = machine_->position();
+Position SlDrawing::position() const {
+  Position position = machine_->position();
   position.linear = machine_->state().frames.from_machine(at_);
   return position;
 }
@@ -145,8 +145,8 @@ NcResult<void> SlDrawing::add(const Element& element) {
   const WorkingPlane& plane = element.plane;
   if (!(plane == WorkingPlane::across(machine_->state().tool_axis())))
     return nc_error("the contour of an SL cycle must be in the working plane");
-  const machine::Frames& now = machine_->state().frames;
-  const machine::Vec3 from = now.from_machine(at_);
+  const Frames& now = machine_->state().frames;
+  const Vec3 from = now.from_machine(at_);
   const auto mapped = [&](Vec2 point) {
     return plane.project(begun_in_.from_machine(now.to_machine(plane.with(from, point))));
   };

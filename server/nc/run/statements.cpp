@@ -13,7 +13,7 @@ NcResult<Next> wrap(const NcResult<void>& done) {
 template <class Statement>
 NcResult<Next> dispatch(Channel& channel, const Instruction& instruction,
                         const Statement& statement) {
-  const auto text = [&](klartext::Text written) { return channel.program().text(written); };
+  const auto text = [&](Text written) { return channel.program().text(written); };
   if constexpr (std::is_same_v<Statement, klartext::LabelCall>) {
     return execute(channel, statement, instruction.b);
   } else if constexpr (std::is_same_v<Statement, klartext::Cycle>) {

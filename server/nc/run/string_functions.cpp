@@ -4,9 +4,6 @@
 namespace fitgauge::interpreter {
 namespace {
 
-using klartext::Expr;
-using klartext::NodeIndex;
-using klartext::Operator;
 using Operands = std::span<const Expr>;
 
 /// Maximum bytes of the characters of a string parameter.
@@ -62,7 +59,7 @@ NcResult<std::string> system_string(Channel& channel, Operands operands) {
   if (id == 10010 && nr == 1) return channel.calls.main_program().path().text();
   if (id == 10010 && nr == 2) return channel.linked().path().text();
   if ((id == 10060 || id == 10950) && nr <= 1) {
-    const machine::Tool* tool = channel.state().active_tool();
+    const Tool* tool = channel.state().active_tool();
     return tool == nullptr ? std::string() : tool->name;
   }
   if (id == 10321) {
@@ -145,7 +142,7 @@ NcResult<double> string_number(Channel& channel, NodeIndex index) {
   const Operator op = channel.program().node(index).op;
   if (op == Operator::StringLength) {
     // The length of an undefined string is -1.
-    const auto* parameter = std::get_if<klartext::QRef>(&operands[0]);
+    const auto* parameter = std::get_if<QRef>(&operands[0]);
     if (parameter != nullptr && !channel.parameters.is_defined(*parameter)) return -1.0;
   }
   auto source = TRY(text(channel, operands[0]));

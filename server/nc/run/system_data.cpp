@@ -4,18 +4,13 @@
 namespace fitgauge::interpreter {
 namespace {
 
-using machine::Axis;
-using machine::CoordinateSystem;
-using machine::MachineState;
-using machine::Vec3;
-
 struct Address {
   int id = 0;
   int nr = 0;
   std::optional<int> index;
 };
 
-NcResult<Address> read_address(Channel& channel, klartext::NodeIndex node) {
+NcResult<Address> read_address(Channel& channel, NodeIndex node) {
   Address address;
   const auto operands = channel.program().operands(node);
   for (std::size_t i = 0; i < operands.size(); ++i) {
@@ -51,7 +46,7 @@ using Answer = std::optional<double>;
 /// Whether the file (NR 110) or directory (111) that QS IDX names exists.
 Answer exists(const Channel& channel, const Address& address) {
   const auto number = address.index.value_or(-1);
-  if (number < 0 || number >= parameter_count(klartext::QSpace::Qs)) return std::nullopt;
+  if (number < 0 || number >= parameter_count(QSpace::Qs)) return std::nullopt;
   const std::string* name = channel.parameters.string(static_cast<std::uint16_t>(number));
   if (name == nullptr) return std::nullopt;
   const bool is_directory = address.nr == 111;
@@ -62,16 +57,16 @@ Answer exists(const Channel& channel, const Address& address) {
 }
 
 /// A row of tool.t; row 0, which every table has, is the empty spindle.
-const machine::Tool* find_tool(const MachineState& state, int number) {
-  static const machine::Tool kNoTool;
-  const machine::Tool* tool = state.tools.find(number);
+const Tool* find_tool(const MachineState& state, int number) {
+  static const Tool kNoTool;
+  const Tool* tool = state.tools.find(number);
   return tool == nullptr && number == 0 ? &kNoTool : tool;
 }
 
 NcError no_tool(int number) { return nc_error(1092, "tool {} is not in the tool table", number); }
 
 Answer tool_data(const MachineState& state, const Address& address) {
-  const machine::Tool* tool = find_tool(state, address.index.value_or(state.tool.number));
+  const Tool* tool = find_tool(state, address.index.value_or(state.tool.number));
   if (tool == nullptr) return std::nullopt;
   if (address.nr < 24 || address.nr > 26) return tool_value(*tool, address.nr);
   // CAL_OF1, CAL_OF2, CAL_ANG: of a probe, in its row of tchprobe.tp.
@@ -149,8 +144,8 @@ Answer axis_data(const Channel& channel, const Address& address) {
 
 Answer find(const Channel& channel, const Address& address) {
   const MachineState& state = channel.state();
-  const machine::Frames& frames = state.frames;
-  const machine::Modes& modes = state.modes;
+  const Frames& frames = state.frames;
+  const Modes& modes = state.modes;
   const auto axis = axis_of(address);
   switch (key(address.id, address.nr)) {
     case key(10, 1): return channel.calls.main_program().is_inch();
@@ -230,9 +225,9 @@ NcResult<double> preset_data(const MachineState& state, const Address& address) 
 NcResult<void> write_tool(Channel& channel, const Address& address, double value) {
   const MachineState& state = channel.state();
   const auto number = address.index.value_or(state.tool.number);
-  const machine::Tool* found = number == 0 ? nullptr : find_tool(state, number);
+  const Tool* found = number == 0 ? nullptr : find_tool(state, number);
   if (found == nullptr) return no_tool(number);
-  machine::Tool tool = *found;
+  Tool tool = *found;
   switch (set_tool_value(tool, address.nr, value)) {
     case ToolWrite::Done: break;
     case ToolWrite::Unknown: return unknown(address);
@@ -261,13 +256,13 @@ NcResult<void> write_preset(Channel& channel, const Address& address, double val
 
 }  // namespace
 
-NcResult<double> read_system_data(Channel& channel, klartext::NodeIndex node) {
+NcResult<double> read_system_data(Channel& channel, NodeIndex node) {
   const auto address = TRY(read_address(channel, node));
   if (!has_system_data(address.id, address.nr, false)) return unknown(address);
   if (address.id == 500) return datum_data(channel, address);
   if (address.id == 502 || address.id == 503) return preset_data(channel.state(), address);
   if (address.id == 50) {
-    const machine::MachineState& state = channel.state();
+    const MachineState& state = channel.state();
     const auto number = address.index.value_or(state.tool.number);
     if (find_tool(state, number) == nullptr) return no_tool(number);
   }
@@ -276,7 +271,7 @@ NcResult<double> read_system_data(Channel& channel, klartext::NodeIndex node) {
   return *answer;
 }
 
-NcResult<void> write_system_data(Channel& channel, klartext::NodeIndex node, double value) {
+NcResult<void> write_system_data(Channel& channel, NodeIndex node, double value) {
   const auto address = TRY(read_address(channel, node));
   if (!has_system_data(address.id, address.nr, true)) return unknown(address);
   switch (address.id) {

@@ -5,7 +5,6 @@
 namespace fitgauge::interpreter {
 namespace {
 
-using klartext::QRef;
 using tabfile::TabTable;
 
 /// FN 27 and FN 28 name up to eight columns.

@@ -19,11 +19,10 @@ class TableAccess {
   NcResult<void> open(const ControlPath& path);
   /// FN 28. @param length_unit mm in one unit of the program's lengths. @errors no table open,
   /// missing row or column, empty or non-numeric cell.
-  NcResult<void> read(klartext::QRef first, std::int64_t row, std::string_view columns,
+  NcResult<void> read(QRef first, std::int64_t row, std::string_view columns,
                       double length_unit) const;
   /// FN 27. @errors as read.
-  NcResult<void> write(klartext::QRef first, std::int64_t row, std::string_view columns,
-                       double length_unit);
+  NcResult<void> write(QRef first, std::int64_t row, std::string_view columns, double length_unit);
 
   /// The name of the open table without its folder; empty: none is open.
   std::string_view open_name() const {

@@ -3,11 +3,6 @@
 namespace fitgauge::interpreter {
 namespace {
 
-using klartext::Letter;
-using machine::CoordinateSystem;
-using machine::RotaryAxis;
-using machine::Vec3;
-
 /// The angle equivalent to `angle` that is in the range and nearest to `from`.
 std::optional<double> nearest_turn(double angle, double from, const machine::AxisRange& range) {
   const double whole = angle + 360 * std::round((from - angle) / 360);
@@ -21,10 +16,10 @@ std::optional<double> nearest_turn(double angle, double from, const machine::Axi
 }
 
 NcResult<void> stand_along(Channel& channel, const Vec3& direction, MotionWords& words) {
-  const machine::MachineState& state = channel.state();
-  const machine::Position position = channel.contour.position(channel.machine());
+  const MachineState& state = channel.state();
+  const Position position = channel.contour.position(channel.machine());
   const Vec3 from = state.frames.rotary_to_machine(position.rotary, CoordinateSystem::Input);
-  machine::Frames on_table = state.frames;
+  Frames on_table = state.frames;
   on_table.set_table({});
   const Vec3 normal = machine::unit(on_table.direction_to_machine(direction));
   const auto rotary = rotary_along(state, normal, from);
@@ -59,14 +54,14 @@ NcResult<void> turn_by_angles(Channel& channel, SpatialAngles& angles, MotionWor
     }
     spatial[letter] = *angles[letter];
   }
-  const machine::Axis tool_axis = channel.state().tool_axis();
+  const Axis tool_axis = channel.state().tool_axis();
   return stand_along(channel, machine::Matrix3::spatial(spatial) * machine::unit_vector(tool_axis),
                      words);
 }
 
 }  // namespace
 
-std::optional<Vec3> in_range(const machine::MachineState& state, Vec3 rotary, const Vec3& from) {
+std::optional<Vec3> in_range(const MachineState& state, Vec3 rotary, const Vec3& from) {
   for (const RotaryAxis& axis : state.kinematics.axes()) {
     const std::size_t letter = machine::index(axis.axis) - 3;
     const auto& range = state.ranges[machine::index(axis.axis)];
@@ -77,8 +72,7 @@ std::optional<Vec3> in_range(const machine::MachineState& state, Vec3 rotary, co
   return rotary;
 }
 
-std::optional<Vec3> rotary_along(const machine::MachineState& state, const Vec3& normal,
-                                 const Vec3& from) {
+std::optional<Vec3> rotary_along(const MachineState& state, const Vec3& normal, const Vec3& from) {
   std::optional<Vec3> nearest;
   double least = std::numeric_limits<double>::infinity();
   for (const Vec3& solution : state.kinematics.orientations(normal, from, state.tool_axis())) {
@@ -97,7 +91,7 @@ NcResult<std::optional<Vec3>> vector_of(Channel& channel, const klartext::Motion
                                         Letter first) {
   std::optional<Vec3> vector;
   if (motion.path != klartext::Path::Ln) return vector;
-  for (const klartext::Word& word : channel.program().view(motion.words)) {
+  for (const Word& word : channel.program().view(motion.words)) {
     const int axis = static_cast<int>(word.letter) - static_cast<int>(first);
     if (axis < 0 || axis > 2) continue;
     const auto value = TRY(number(channel, word.value));

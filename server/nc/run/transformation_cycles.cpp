@@ -3,9 +3,6 @@
 namespace fitgauge::interpreter {
 namespace {
 
-using klartext::Letter;
-using klartext::Word;
-using machine::Vec3;
 using Words = std::span<const Word>;
 
 const Word* find(Words words, Letter letter) {

@@ -3,12 +3,6 @@
 namespace fitgauge::interpreter {
 namespace {
 
-using klartext::Expr;
-using klartext::NodeIndex;
-using klartext::Operator;
-using klartext::QRef;
-using klartext::Text;
-
 bool is_string(const Channel& channel, const Expr& expr) {
   const auto* node = std::get_if<NodeIndex>(&expr);
   return node != nullptr ? gives_text(channel.program().node(*node).op) : is_text(expr);
@@ -24,8 +18,6 @@ NcResult<double> arithmetic(Channel& channel, NodeIndex index) {
   if (!std::isfinite(result)) return nc_error(failure(op, values[0], values[1]));
   return result;
 }
-
-using machine::Tool;
 
 /// A column that is a plain number.
 struct Column {
@@ -221,7 +213,7 @@ bool is_tool_length(std::int64_t nr) {
 }
 
 void update_preassigned(Channel& channel) {
-  const machine::MachineState& state = channel.state();
+  const MachineState& state = channel.state();
   QParameters& q = channel.parameters;
   const bool is_inch = channel.calls.main_program().is_inch();
   const double unit = is_inch ? 25.4 : 1.0;
@@ -233,7 +225,7 @@ void update_preassigned(Channel& channel) {
   q.set_q(114, state.tool_length() / unit);
 }
 
-void set_plane_angles(Channel& channel, const machine::Vec3& rotary) {
+void set_plane_angles(Channel& channel, const Vec3& rotary) {
   for (std::uint16_t i = 0; i < 3; ++i)
     channel.parameters.set_q(static_cast<std::uint16_t>(120 + i), rotary[i]);
 }

@@ -7,28 +7,28 @@ namespace fitgauge::interpreter {
 /// The values of the operands of a block, in the program that runs. Reading an undefined parameter
 /// is an error that names it (decision 3); the executor adds the block.
 
-NcResult<double> number(Channel& channel, const klartext::Expr& expr);
+NcResult<double> number(Channel& channel, const Expr& expr);
 /// Returns a coordinate of a positioning block. An undefined parameter leaves its axis out
 /// (decision 18).
-NcResult<std::optional<double>> coordinate(Channel& channel, const klartext::Expr& expr);
+NcResult<std::optional<double>> coordinate(Channel& channel, const Expr& expr);
 /// A number that must be whole and between two bounds, both included. @errors 1011.
-NcResult<int> whole_in(Channel& channel, const klartext::Expr& expr, int least, int most);
+NcResult<int> whole_in(Channel& channel, const Expr& expr, int least, int most);
 /// A whole number in the range of int. @errors 1011.
-NcResult<int> whole(Channel& channel, const klartext::Expr& expr);
+NcResult<int> whole(Channel& channel, const Expr& expr);
 
-NcResult<std::string> text(Channel& channel, const klartext::Expr& expr);
+NcResult<std::string> text(Channel& channel, const Expr& expr);
 
 /// A node of Equal, NotEqual, Greater, Less, IsDefined, IsUndefined.
-NcResult<bool> condition(Channel& channel, klartext::NodeIndex index);
+NcResult<bool> condition(Channel& channel, NodeIndex index);
 
 /// The numeric value of an inner node.
-NcResult<double> evaluate(Channel& channel, klartext::NodeIndex index);
+NcResult<double> evaluate(Channel& channel, NodeIndex index);
 
 // string_functions.cpp
 /// Concat, ToChar, SubString, SystemString.
-NcResult<std::string> string_value(Channel& channel, klartext::NodeIndex index);
+NcResult<std::string> string_value(Channel& channel, NodeIndex index);
 /// ToNumber, InString, StringLength, StringCompare.
-NcResult<double> string_number(Channel& channel, klartext::NodeIndex index);
+NcResult<double> string_number(Channel& channel, NodeIndex index);
 
 /// A number as TOCHAR writes it: with that many decimals, or without a number of them (-1) up to 6
 /// without trailing zeros (decision 22).
@@ -43,10 +43,10 @@ std::string_view month_name(int month);
 // system_data.cpp
 /// FN 18: SYSREAD. Always metric, in INCH programs too.
 /// @errors an ID or NR this control does not have (decision 3), no such tool, preset or axis.
-NcResult<double> read_system_data(Channel& channel, klartext::NodeIndex address);
+NcResult<double> read_system_data(Channel& channel, NodeIndex address);
 
 /// FN 17: SYSWRITE of ID50 (tool table), ID500 (datum table) and ID503 (preset table).
-NcResult<void> write_system_data(Channel& channel, klartext::NodeIndex address, double value);
+NcResult<void> write_system_data(Channel& channel, NodeIndex address, double value);
 
 /// The columns of tool.t by the NR of FN 17 and FN 18 ID50; nothing for a number without one.
 std::optional<double> tool_value(const machine::Tool& tool, std::int64_t nr);
