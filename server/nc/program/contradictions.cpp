@@ -10,7 +10,6 @@ namespace fitgauge::interpreter {
 namespace {
 
 using klartext::Block;
-using probing::CycleDescriptor;
 
 /// Nominal size of a cycle, and its limit or the tolerance of its centre.
 constexpr int kLimitsOfSize[][2] = {

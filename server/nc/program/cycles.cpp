@@ -21,7 +21,7 @@ constexpr DottedSetting kDotted[] = {
 /// Their numbers and names.
 const auto& settings() {
   static const auto kSettings = [] {
-    std::array<probing::CycleDescriptor, std::size(kDotted)> all{};
+    std::array<CycleDescriptor, std::size(kDotted)> all{};
     for (std::size_t i = 0; i < all.size(); ++i)
       all[i] = {.family = probing::CycleFamily::CyclDef,
                 .number = static_cast<std::uint16_t>(kDotted[i].number),
@@ -33,8 +33,6 @@ const auto& settings() {
 }
 
 namespace usual = probing::parameter;
-using probing::CycleDescriptor;
-using probing::CycleParameter;
 using probing::Unit;
 using probing::ValueKind;
 
@@ -89,7 +87,7 @@ BoundCycle bind_cycle(const Program& program, const klartext::Cycle& cycle) {
     const auto* machining = machining_cycle(cycle.number);
     if (machining != nullptr && !machining->descriptor.dotted) bound.machining = machining;
   }
-  const probing::CycleDescriptor* descriptor = bound.descriptor();
+  const CycleDescriptor* descriptor = bound.descriptor();
   if (descriptor == nullptr) return bound;
   for (const klartext::CycleParameter& written : program.view(cycle.parameters))
     bound.parameters.push_back(find_parameter(*descriptor, written.parameter));
@@ -105,9 +103,9 @@ double scale_of(probing::Unit unit, bool is_inch) {
   }
 }
 
-std::optional<probing::ArgumentValue> literal(const Program& program,
-                                              const klartext::CycleParameter& written,
-                                              const probing::CycleParameter& parameter) {
+std::optional<ArgumentValue> literal(const Program& program,
+                                     const klartext::CycleParameter& written,
+                                     const CycleParameter& parameter) {
   switch (written.kind) {
     case klartext::CycleValue::Expression: break;
     case klartext::CycleValue::Max: return std::numeric_limits<double>::infinity();
@@ -121,29 +119,27 @@ std::optional<probing::ArgumentValue> literal(const Program& program,
   return std::nullopt;
 }
 
-const probing::CycleParameter* find_parameter(const probing::CycleDescriptor& descriptor,
-                                              QRef written) {
+const CycleParameter* find_parameter(const CycleDescriptor& descriptor, QRef written) {
   if (written.space != QSpace::Q && written.space != QSpace::Qs) return nullptr;
   const auto* parameter = descriptor.find(probing::q(written.number));
   if (parameter == nullptr || !written.is_string()) return parameter;
   return parameter->takes_text() ? parameter : nullptr;
 }
 
-const probing::CycleDescriptor* other_cycle(const probing::CycleDescriptor& cycle,
-                                            std::string_view name) {
+const CycleDescriptor* other_cycle(const CycleDescriptor& cycle, std::string_view name) {
   // `TAPPING` is short for `RIGID TAPPING`.
   const bool is_short =
       cycle.dotted && ascii_upper(cycle.name).find(ascii_upper(name)) != std::string::npos;
   if (is_short || ascii_iequals(cycle.name, name)) return nullptr;
-  const auto is_meant = [&](const probing::CycleDescriptor& other) {
+  const auto is_meant = [&](const CycleDescriptor& other) {
     return other.family == cycle.family && ascii_iequals(other.name, name);
   };
-  const probing::CycleDescriptor* found = nullptr;
-  const auto consider = [&](const probing::CycleDescriptor& other) {
+  const CycleDescriptor* found = nullptr;
+  const auto consider = [&](const CycleDescriptor& other) {
     const bool is_nearer = found == nullptr || found->dotted != cycle.dotted;
     if (is_nearer && is_meant(other)) found = &other;
   };
-  for (const probing::TouchProbeCycle* other : probing::cycles()) consider(other->descriptor);
+  for (const TouchProbeCycle* other : probing::cycles()) consider(other->descriptor);
   if (!cycle.dotted)
     for (const MachiningCycle& other : machining_cycles()) consider(other.descriptor);
   for (const CycleDescriptor& other : settings()) consider(other);
@@ -158,7 +154,7 @@ const CycleDescriptor* dotted_cycle(klartext::CycleFamily family, int number) {
   return found == settings().end() ? nullptr : found;
 }
 
-const probing::TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number) {
+const TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number) {
   if (family == klartext::CycleFamily::GlobalDef) return nullptr;
   return probing::find_cycle(family == klartext::CycleFamily::TchProbe
                                  ? probing::CycleFamily::TchProbe

@@ -5,6 +5,9 @@
 
 namespace fitgauge::interpreter {
 
+using probing::Arguments, probing::ArgumentValue, probing::CycleDescriptor, probing::CycleParameter,
+    probing::ParameterId, probing::TouchProbeCycle;
+
 /// The machining cycles, for the linker, /v1/cycles and the run. They run as motion of the tool:
 /// positions, depths and feeds as on the control; no material is removed.
 
@@ -32,7 +35,7 @@ enum class MachiningShape : std::uint8_t {
 };
 
 struct MachiningCycle {
-  probing::CycleDescriptor descriptor;
+  CycleDescriptor descriptor;
   MachiningShape shape;
   bool runs_when_defined = false;  ///< DEF-active; the others wait for M99, M89 or CYCL CALL
 };
@@ -63,14 +66,14 @@ const MachiningCycle* machining_cycle(int number);
 /// A cycle block in Q parameters, with its cycle and parameters already found, so that a run
 /// searches nothing by name. Has at most one of the cycles; none: it is unavailable.
 struct BoundCycle {
-  const probing::TouchProbeCycle* probing = nullptr;
+  const TouchProbeCycle* probing = nullptr;
   const MachiningCycle* machining = nullptr;
-  const probing::CycleDescriptor* global = nullptr;  ///< GLOBAL DEF
+  const CycleDescriptor* global = nullptr;  ///< GLOBAL DEF
   /// One for each parameter of the block; not null, since the linker refuses unknown ones.
-  std::vector<const probing::CycleParameter*> parameters{};
+  std::vector<const CycleParameter*> parameters{};
 
   /// Describes its parameters; null if it is not available.
-  const probing::CycleDescriptor* descriptor() const {
+  const CycleDescriptor* descriptor() const {
     if (probing != nullptr) return &probing->descriptor;
     return machining != nullptr ? &machining->descriptor : global;
   }
@@ -86,23 +89,21 @@ double scale_of(probing::Unit unit, bool is_inch);
 
 /// Returns the value of a cycle parameter that is known before the program runs: a written number
 /// or text. None for parameters, formulas and PREDEF.
-std::optional<probing::ArgumentValue> literal(const Program& program,
-                                              const klartext::CycleParameter& written,
-                                              const probing::CycleParameter& parameter);
+std::optional<ArgumentValue> literal(const Program& program,
+                                     const klartext::CycleParameter& written,
+                                     const CycleParameter& parameter);
 
 /// The descriptor's parameter that `Q262=` or `QS400=` of a block means, or null.
-const probing::CycleParameter* find_parameter(const probing::CycleDescriptor& descriptor,
-                                              QRef written);
+const CycleParameter* find_parameter(const CycleDescriptor& descriptor, QRef written);
 
 /// Another cycle of the same family with that name, or null; of two that which is written alike.
-const probing::CycleDescriptor* other_cycle(const probing::CycleDescriptor& cycle,
-                                            std::string_view name);
+const CycleDescriptor* other_cycle(const CycleDescriptor& cycle, std::string_view name);
 
 /// The cycle of a sub-line, settings included, or null.
-const probing::CycleDescriptor* dotted_cycle(klartext::CycleFamily family, int number);
+const CycleDescriptor* dotted_cycle(klartext::CycleFamily family, int number);
 
 /// The cycle of the probing library, or null.
-const probing::TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number);
+const TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number);
 
 /// A setting in sub-lines: `CYCL DEF 7.0`, `7.1`.
 struct DottedSetting {
@@ -119,9 +120,9 @@ bool is_available(klartext::CycleFamily family, int number, bool dotted);
 
 /// GLOBAL DEF 100, 105, 110, 111, 120 and 125: the values of PREDEF (decision 23). Static data;
 /// null for another number.
-const probing::CycleDescriptor* global_definition(int number);
+const CycleDescriptor* global_definition(int number);
 
 /// The GLOBAL DEF with a value for `Q320=PREDEF`, or null if PREDEF is not allowed.
-const probing::CycleDescriptor* global_definition_of(int parameter);
+const CycleDescriptor* global_definition_of(int parameter);
 
 }  // namespace fitgauge::interpreter

@@ -59,7 +59,7 @@ bool exclude(int a, int b) {
 }
 
 /// A feed at which the tool is in the material.
-bool cuts(const probing::CycleParameter& parameter) {
+bool cuts(const CycleParameter& parameter) {
   constexpr int kCutting[] = {11, 12, 19, 206, 207, 254, 385};
   return std::ranges::find(kCutting, static_cast<int>(parameter.id)) != std::end(kCutting);
 }
@@ -143,7 +143,7 @@ class BlockCheck {
     check_predefined(cycle);
     const BoundCycle bound = bind_cycle(program_, cycle);
     if (bound.probing != nullptr) {
-      const probing::Arguments known = check_parameters(cycle, bound.probing->descriptor);
+      const Arguments known = check_parameters(cycle, bound.probing->descriptor);
       if (bound.probing->check != nullptr) {
         report_failure(bound.probing->check(known), block_.written);
       }
@@ -281,7 +281,7 @@ class BlockCheck {
 
   /// The cycle that has all parameters of this block, as a hint; or nothing.
   std::string owner(const klartext::Cycle& block) const {
-    for (const probing::TouchProbeCycle* other : probing::cycles()) {
+    for (const TouchProbeCycle* other : probing::cycles()) {
       const auto all = program_.view(block.parameters);
       const bool has_all = std::ranges::all_of(all, [&](const auto& written) {
         return find_parameter(other->descriptor, written.parameter) != nullptr;
@@ -294,9 +294,9 @@ class BlockCheck {
   }
 
   void report_unknown(const klartext::CycleParameter& written, const klartext::Cycle& block,
-                      const probing::CycleDescriptor& cycle) {
+                      const CycleDescriptor& cycle) {
     if (diagnostics_.size() >= kMostFindings) return;
-    std::vector<const probing::CycleParameter*> missing;
+    std::vector<const CycleParameter*> missing;
     for (const auto& parameter : cycle.parameters) {
       const auto is_it = [&](const auto& other) {
         return find_parameter(cycle, other.parameter) == &parameter;
@@ -334,10 +334,9 @@ class BlockCheck {
   }
 
   /// @return the explicit values that are allowed.
-  probing::Arguments check_parameters(const klartext::Cycle& cycle,
-                                      const probing::CycleDescriptor& descriptor) {
-    probing::Arguments known(descriptor);
-    std::vector<const probing::CycleParameter*> given;
+  Arguments check_parameters(const klartext::Cycle& cycle, const CycleDescriptor& descriptor) {
+    Arguments known(descriptor);
+    std::vector<const CycleParameter*> given;
     for (const auto& written : program_.view(cycle.parameters)) {
       const auto* parameter = find_parameter(descriptor, written.parameter);
       if (parameter == nullptr) {

@@ -5,10 +5,8 @@
 namespace fitgauge::interpreter {
 namespace {
 
-using probing::CycleDescriptor;
 using probing::CycleFamily;
 using probing::CycleKind;
-using probing::CycleParameter;
 using probing::q;
 using probing::Unit;
 using probing::ValueKind;

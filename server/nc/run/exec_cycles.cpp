@@ -110,7 +110,7 @@ class ChannelCycleHost final : public probing::CycleHost {
 };
 
 /// A travel that ends before the nominal contact finds only nearer material.
-NcResult<void> note_short_travel(Channel& channel, const probing::Arguments& arguments) {
+NcResult<void> note_short_travel(Channel& channel, const Arguments& arguments) {
   const auto probe = channel.state().probe_system();
   if (!probe || arguments.descriptor().find(probing::q(320)) == nullptr) return {};
   const double clearance = probe->data.set_up + arguments.number(320);
@@ -121,8 +121,7 @@ NcResult<void> note_short_travel(Channel& channel, const probing::Arguments& arg
       probe->data.distance, clearance);
 }
 
-NcResult<void> run_probing(Channel& channel, const probing::TouchProbeCycle& cycle,
-                           probing::Arguments arguments) {
+NcResult<void> run_probing(Channel& channel, const TouchProbeCycle& cycle, Arguments arguments) {
   TRY(arguments.complete());
   TRY(note_short_travel(channel, arguments));
   channel.active_cycle.last_probing = cycle.descriptor.number;
@@ -133,9 +132,9 @@ NcResult<void> run_probing(Channel& channel, const probing::TouchProbeCycle& cyc
   return done;
 }
 
-NcResult<probing::Arguments> arguments_of(Channel& channel, const klartext::Cycle& cycle,
-                                          const BoundCycle& bound) {
-  probing::Arguments arguments(*bound.descriptor());
+NcResult<Arguments> arguments_of(Channel& channel, const klartext::Cycle& cycle,
+                                 const BoundCycle& bound) {
+  Arguments arguments(*bound.descriptor());
   const auto parameters = channel.program().view(cycle.parameters);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     auto value = TRY(cycle_argument(channel, parameters[i], *bound.parameters[i]));
@@ -149,7 +148,7 @@ NcResult<void> define_globally(Channel& channel, const klartext::Cycle& cycle,
                                const BoundCycle& bound) {
   auto arguments = TRY(arguments_of(channel, cycle, bound));
   TRY(arguments.complete());
-  for (const probing::CycleParameter& parameter : bound.global->parameters)
+  for (const CycleParameter& parameter : bound.global->parameters)
     channel.predefined[static_cast<int>(parameter.id)] = arguments.number(parameter.id);
   return {};
 }

@@ -138,9 +138,8 @@ class Channel;
 
 /// The value of a cycle parameter in mm, mm/min and degrees; MAX is infinity, AUTO the feed of TOOL
 /// CALL, a text if the parameter accepts one. @errors decision 3.
-NcResult<probing::ArgumentValue> cycle_argument(Channel& channel,
-                                                const klartext::CycleParameter& written,
-                                                const probing::CycleParameter& parameter);
+NcResult<ArgumentValue> cycle_argument(Channel& channel, const klartext::CycleParameter& written,
+                                       const CycleParameter& parameter);
 
 /// The values of a machining cycle in Q parameters. @errors 1004, 1011 a value out of its range.
 NcResult<MachiningDefinition> machining_arguments(Channel& channel, const klartext::Cycle& cycle,
@@ -160,9 +159,8 @@ NcResult<MachiningDefinition> machining_arguments(Channel& channel, const Machin
                                                   std::uint32_t first, std::uint32_t last);
 
 /// The words of a touch-probe cycle in sub-lines (0, 1, 3, 4) as its arguments.
-NcResult<probing::Arguments> dotted_arguments(Channel& channel,
-                                              const probing::TouchProbeCycle& cycle,
-                                              std::uint32_t first, std::uint32_t last);
+NcResult<Arguments> dotted_arguments(Channel& channel, const TouchProbeCycle& cycle,
+                                     std::uint32_t first, std::uint32_t last);
 
 /// The labels of cycle 14.
 NcResult<std::vector<Label>> contour_labels(Channel& channel, std::uint32_t first,

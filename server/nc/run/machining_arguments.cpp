@@ -4,7 +4,6 @@ namespace fitgauge::interpreter {
 namespace {
 
 using klartext::CycleValue;
-using probing::ParameterId;
 
 /// FU is a feed a turn of the spindle, FZ a tooth.
 NcResult<double> number_value(Channel& channel, const klartext::CycleParameter& written) {
@@ -28,7 +27,7 @@ NcResult<double> predefined_value(const Channel& channel, int parameter) {
   const auto found = channel.predefined.find(parameter);
   if (found != channel.predefined.end()) return found->second;
   // Not null: the linker has refused parameters that no GLOBAL DEF has.
-  const probing::CycleDescriptor& definition = *global_definition_of(parameter);
+  const CycleDescriptor& definition = *global_definition_of(parameter);
   return nc_error(1017, "Q{} is PREDEF, but GLOBAL DEF {} {} is missing before it", parameter,
                   definition.number, definition.name);
 }
@@ -76,7 +75,7 @@ double unit_of(const Channel& channel, int parameter) {
 /// Reads one word of a sub-line after the other into the arguments of the cycle.
 class DottedReader {
  public:
-  DottedReader(Channel& channel, const probing::CycleDescriptor& descriptor)
+  DottedReader(Channel& channel, const CycleDescriptor& descriptor)
       : channel_(channel), descriptor_(descriptor), arguments_(descriptor) {}
 
   NcResult<void> read(const Word& word, int part) {
@@ -90,15 +89,15 @@ class DottedReader {
     }
   }
 
-  probing::Arguments take() { return std::move(arguments_); }
+  Arguments take() { return std::move(arguments_); }
 
  private:
-  const probing::CycleParameter* find(ParameterId id, int part) const {
+  const CycleParameter* find(ParameterId id, int part) const {
     const auto* parameter = descriptor_.find(id);
     return parameter != nullptr && parameter->part == part ? parameter : nullptr;
   }
 
-  NcResult<void> set(const probing::CycleParameter& parameter, const Word& word, double added = 0) {
+  NcResult<void> set(const CycleParameter& parameter, const Word& word, double added = 0) {
     const auto value = TRY(number(channel_, word.value));
     const double scale = scale_of(parameter.unit, channel_.linked().is_inch());
     arguments_.set(parameter.id, value * scale + added);
@@ -152,8 +151,8 @@ class DottedReader {
   }
 
   Channel& channel_;
-  const probing::CycleDescriptor& descriptor_;
-  probing::Arguments arguments_;
+  const CycleDescriptor& descriptor_;
+  Arguments arguments_;
   int part_ = -1;
   std::size_t values_ = 0;  ///< of the sub-line
 };
@@ -172,39 +171,38 @@ std::vector<PartWord> words_of_parts(const Channel& channel, std::uint32_t first
   return all;
 }
 
-NcResult<probing::ArgumentValue> cycle_argument(Channel& channel,
-                                                const klartext::CycleParameter& written,
-                                                const probing::CycleParameter& parameter) {
+NcResult<ArgumentValue> cycle_argument(Channel& channel, const klartext::CycleParameter& written,
+                                       const CycleParameter& parameter) {
   if (written.kind == CycleValue::Predef) {
     const auto value = TRY(predefined_value(channel, written.parameter.number));
-    return probing::ArgumentValue(value);
+    return ArgumentValue(value);
   }
   if (auto value = literal(channel.program(), written, parameter)) return *std::move(value);
   if (written.kind == CycleValue::Expression && is_text(written.value)) {
     auto value = TRY(text(channel, written.value));
-    return probing::ArgumentValue(std::move(value));
+    return ArgumentValue(std::move(value));
   }
   const auto value = TRY(number_value(channel, written));
   const bool is_converted = written.kind != CycleValue::Expression;
   const double scale = is_converted ? 1 : scale_of(parameter.unit, channel.linked().is_inch());
-  return probing::ArgumentValue(value * scale);
+  return ArgumentValue(value * scale);
 }
 
 NcResult<MachiningDefinition> machining_arguments(Channel& channel, const klartext::Cycle& cycle,
                                                   const BoundCycle& bound) {
-  const probing::CycleDescriptor& descriptor = bound.machining->descriptor;
-  probing::Arguments arguments(descriptor);
+  const CycleDescriptor& descriptor = bound.machining->descriptor;
+  Arguments arguments(descriptor);
   MachiningDefinition definition{.cycle = bound.machining};
   const auto parameters = channel.program().view(cycle.parameters);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const probing::CycleParameter& parameter = *bound.parameters[i];
+    const CycleParameter& parameter = *bound.parameters[i];
     auto value = TRY(cycle_argument(channel, parameters[i], parameter));
     if (!std::holds_alternative<std::monostate>(value))
       definition.given.insert(static_cast<int>(parameter.id));
     arguments.set(parameter.id, std::move(value));
   }
   TRY(arguments.complete());
-  for (const probing::CycleParameter& parameter : descriptor.parameters) {
+  for (const CycleParameter& parameter : descriptor.parameters) {
     if (arguments.has_number(parameter.id)) {
       definition.values[static_cast<int>(parameter.id)] = arguments.number(parameter.id);
     } else if (const std::string* written = arguments.text(parameter.id)) {
@@ -235,9 +233,8 @@ NcResult<MachiningDefinition> machining_arguments(Channel& channel, const Machin
   return definition;
 }
 
-NcResult<probing::Arguments> dotted_arguments(Channel& channel,
-                                              const probing::TouchProbeCycle& cycle,
-                                              std::uint32_t first, std::uint32_t last) {
+NcResult<Arguments> dotted_arguments(Channel& channel, const TouchProbeCycle& cycle,
+                                     std::uint32_t first, std::uint32_t last) {
   DottedReader reader(channel, cycle.descriptor);
   for (const auto& [part, word] : words_of_parts(channel, first, last))
     TRY(reader.read(word, part));

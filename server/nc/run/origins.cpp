@@ -44,7 +44,7 @@ std::vector<QRef> read_by(const Program& program, const Block& block, const std:
   return named.empty() ? all : named;
 }
 
-const probing::CycleDescriptor* descriptor_of(const Block& block) {
+const CycleDescriptor* descriptor_of(const Block& block) {
   const auto* cycle = as<klartext::Cycle>(block);
   if (cycle == nullptr) return nullptr;
   if (const auto* probing = probing_cycle(cycle->family, cycle->number))
