@@ -180,76 +180,24 @@ constexpr const CycleParameter& find(int number) {
   throw "a parameter that the table does not have";  // at compile time
 }
 
-template <std::size_t N>
-constexpr std::array<CycleParameter, N> pick(const int (&numbers)[N]) {
-  std::array<CycleParameter, N> picked{};
-  for (std::size_t i = 0; i < N; ++i) picked[i] = find(numbers[i]);
-  return picked;
-}
-
-/// Q367 of a cycle that has fewer positions.
-template <std::size_t N>
-constexpr std::array<CycleParameter, N> placed(std::array<CycleParameter, N> all, double most) {
-  for (CycleParameter& parameter : all) {
-    if (parameter.id == q(367)) parameter.range.max = most;
-  }
+/// Parameters of a cycle, in the order of the control's dialog.
+template <int... Numbers>
+constexpr std::array kOf{find(Numbers)...};
+/// Also with the last position of Q367 for a cycle that has fewer.
+template <int Last, int... Numbers>
+constexpr auto kPlaced = [] {
+  std::array all{find(Numbers)...};
+  std::ranges::find(all, q(367), &CycleParameter::id)->range.max = Last;
   return all;
-}
-
-// Parameters of each cycle, in the order of the control's dialog.
-constexpr auto k20 = pick({1, 2, 3, 4, 5, 6, 7, 8, 9});
-constexpr auto k21 = pick({10, 11, 13});
-constexpr auto k22 = pick({10, 11, 12, 18, 19, 208, 401, 404, 438});
-constexpr auto k23 = pick({11, 12, 208, 438});
-constexpr auto k24 = pick({9, 10, 11, 12, 14, 438});
-constexpr auto k200 = pick({200, 201, 206, 202, 210, 203, 204, 211, 395, 207, 208});
-constexpr auto k201 = pick({200, 201, 206, 211, 208, 203, 204});
-constexpr auto k202 = pick({200, 201, 206, 211, 208, 203, 204, 214, 336});
-constexpr auto k203 = pick({200, 201, 206, 202, 210, 203, 204, 212, 213, 205, 211, 208, 256, 395});
-constexpr auto k204 = pick({200, 249, 250, 251, 252, 253, 254, 255, 203, 204, 214, 336});
-constexpr auto k205 =
-    pick({200, 201, 206, 202, 203, 204, 212, 205, 258, 259, 257, 256, 211, 379, 253, 208, 395});
-constexpr auto k206 = pick({200, 201, 206, 211, 203, 204});
-constexpr auto k207 = pick({200, 201, 239, 203, 204});
-constexpr auto k208 = pick({200, 201, 206, 334, 203, 204, 335, 342, 351, 370});
-constexpr auto k209 = pick({200, 201, 239, 203, 204, 257, 256, 336, 403});
-constexpr auto k220 = pick({216, 217, 244, 245, 246, 247, 241, 200, 203, 204, 301, 365});
-constexpr auto k221 = pick({225, 226, 237, 238, 242, 243, 224, 200, 203, 204, 301, 460});
-constexpr auto k225 =
-    pick({500, 513, 514, 515, 516, 374, 517, 207, 201, 206, 200, 203, 204, 367, 574});
-constexpr auto k240 = pick({200, 343, 201, 344, 206, 211, 203, 204, 341, 342, 395});
-constexpr auto k241 = pick({200, 201, 206, 211, 203, 204, 379, 253, 208, 426, 427, 428, 429, 430,
-                            435, 401, 202, 212, 205});
+}();
 constexpr auto k232 = [] {
-  auto all = pick({389, 225, 226, 227, 386, 218, 219, 202, 369, 370, 207, 385, 253, 200, 357, 204});
+  std::array all =
+      kOf<389, 225, 226, 227, 386, 218, 219, 202, 369, 370, 207, 385, 253, 200, 357, 204>;
   for (CycleParameter& side : all) {
     if (side.id == q(218) || side.id == q(219)) side.range.min = -kLongest;
   }
   return all;
 }();
-constexpr auto k251 = placed(pick({215, 218, 219, 220, 368, 224, 367, 207, 351, 201, 202,
-                                   369, 206, 338, 200, 203, 204, 370, 366, 385, 439}),
-                             4);
-constexpr auto k252 =
-    pick({215, 223, 368, 207, 351, 201, 202, 369, 206, 338, 200, 203, 204, 370, 366, 385, 439});
-constexpr auto k253 = placed(pick({215, 218, 219, 368, 374, 367, 207, 351, 201, 202, 369, 206, 338,
-                                   200, 203, 204, 366, 385, 439}),
-                             4);
-constexpr auto k254 = placed(pick({215, 219, 368, 375, 367, 216, 217, 376, 248, 378, 377, 207,
-                                   351, 201, 202, 369, 206, 338, 200, 203, 204, 366, 385, 439}),
-                             3);
-constexpr auto k256 = placed(pick({218, 424, 219, 425, 220, 368, 224, 367, 207, 351, 201,
-                                   202, 206, 200, 203, 204, 370, 437, 215, 369, 338, 385}),
-                             4);
-constexpr auto k257 =
-    pick({223, 222, 368, 207, 351, 201, 202, 206, 200, 203, 204, 370, 376, 215, 369, 338, 385});
-constexpr auto k262 = pick({335, 239, 201, 355, 253, 351, 200, 203, 204, 207, 512});
-constexpr auto k263 =
-    pick({335, 239, 201, 356, 253, 351, 200, 357, 358, 359, 203, 204, 254, 207, 512});
-constexpr auto k264 = pick(
-    {335, 239, 201, 356, 253, 351, 202, 258, 257, 256, 358, 359, 200, 203, 204, 206, 207, 512});
-constexpr auto k265 = pick({335, 239, 201, 253, 358, 359, 360, 200, 203, 204, 254, 207});
-constexpr auto k267 = pick({335, 239, 201, 355, 253, 351, 200, 358, 359, 203, 204, 254, 207, 512});
 
 constexpr std::string_view kDrillingText =
     "Every infeed, chip breaking, dwell and feed along the tool axis.";
@@ -327,32 +275,43 @@ constexpr MachiningCycle kCycles[] = {
     in_lines(14, "CONTOUR", Shape::ContourLabels, kLabelsText),
     in_lines(17, "RIGID TAPPING", Shape::Tapping, kDrillingText),
     in_lines(18, "THREAD CUTTING", Shape::Tapping, kDrillingText),
-    in_q(20, "CONTOUR DATA", Shape::ContourData, k20,
+    in_q(20, "CONTOUR DATA", Shape::ContourData, kOf<1, 2, 3, 4, 5, 6, 7, 8, 9>,
          "Depth, surface, clearances, allowances, overlap and direction of cycles 21 to 24.", "",
          true),
-    in_q(21, "PILOT DRILLING", Shape::Contour, k21, kPilotText),
-    in_q(22, "ROUGH-OUT", Shape::Contour, k22, kRoughText, kNoLanes),
-    in_q(23, "FLOOR FINISHING", Shape::Contour, k23, kFloorText, kNoLanes),
-    in_q(24, "SIDE FINISHING", Shape::Contour, k24, kSideText, kNoArcs),
-    in_q(200, "DRILLING", Shape::Drilling, k200, kDrillingText),
-    in_q(201, "REAMING", Shape::Drilling, k201, kDrillingText),
-    in_q(202, "BORING", Shape::Boring, k202, kDrillingText,
-         "Turning the spindle to Q336; the tool withdraws by 0.2 mm."),
-    in_q(203, "UNIVERSAL DRILLING", Shape::Drilling, k203, kDrillingText),
-    in_q(204, "BACK BORING", Shape::BackBoring, k204, kDrillingText,
+    in_q(21, "PILOT DRILLING", Shape::Contour, kOf<10, 11, 13>, kPilotText),
+    in_q(22, "ROUGH-OUT", Shape::Contour, kOf<10, 11, 12, 18, 19, 208, 401, 404, 438>, kRoughText,
+         kNoLanes),
+    in_q(23, "FLOOR FINISHING", Shape::Contour, kOf<11, 12, 208, 438>, kFloorText, kNoLanes),
+    in_q(24, "SIDE FINISHING", Shape::Contour, kOf<9, 10, 11, 12, 14, 438>, kSideText, kNoArcs),
+    in_q(200, "DRILLING", Shape::Drilling,
+         kOf<200, 201, 206, 202, 210, 203, 204, 211, 395, 207, 208>, kDrillingText),
+    in_q(201, "REAMING", Shape::Drilling, kOf<200, 201, 206, 211, 208, 203, 204>, kDrillingText),
+    in_q(202, "BORING", Shape::Boring, kOf<200, 201, 206, 211, 208, 203, 204, 214, 336>,
+         kDrillingText, "Turning the spindle to Q336; the tool withdraws by 0.2 mm."),
+    in_q(203, "UNIVERSAL DRILLING", Shape::Drilling,
+         kOf<200, 201, 206, 202, 210, 203, 204, 212, 213, 205, 211, 208, 256, 395>, kDrillingText),
+    in_q(204, "BACK BORING", Shape::BackBoring,
+         kOf<200, 249, 250, 251, 252, 253, 254, 255, 203, 204, 214, 336>, kDrillingText,
          "Turning the spindle to Q336."),
-    in_q(205, "UNIVERSAL PECKING", Shape::Drilling, k205, kDrillingText),
-    in_q(206, "TAPPING", Shape::Tapping, k206, kDrillingText),
-    in_q(207, "RIGID TAPPING", Shape::Tapping, k207, kDrillingText),
-    in_q(208, "BORE MILLING", Shape::BoreMilling, k208,
+    in_q(205, "UNIVERSAL PECKING", Shape::Drilling,
+         kOf<200, 201, 206, 202, 203, 204, 212, 205, 258, 259, 257, 256, 211, 379, 253, 208, 395>,
+         kDrillingText),
+    in_q(206, "TAPPING", Shape::Tapping, kOf<200, 201, 206, 211, 203, 204>, kDrillingText),
+    in_q(207, "RIGID TAPPING", Shape::Tapping, kOf<200, 201, 239, 203, 204>, kDrillingText),
+    in_q(208, "BORE MILLING", Shape::BoreMilling,
+         kOf<200, 201, 206, 334, 203, 204, 335, 342, 351, 370>,
          "Helix of Q334 to the depth, a full circle there, back over the centre.",
          "Several rounds from the roughed-out diameter Q342."),
-    in_q(209, "TAPPING W/ CHIP BRKG", Shape::Tapping, k209, kDrillingText),
-    in_q(220, "POLAR PATTERN", Shape::PolarPattern, k220, "Runs the cycle before it at each point.",
-         "", true),
-    in_q(221, "CARTESIAN PATTERN", Shape::LinearPattern, k221,
+    in_q(209, "TAPPING W/ CHIP BRKG", Shape::Tapping,
+         kOf<200, 201, 239, 203, 204, 257, 256, 336, 403>, kDrillingText),
+    in_q(220, "POLAR PATTERN", Shape::PolarPattern,
+         kOf<216, 217, 244, 245, 246, 247, 241, 200, 203, 204, 301, 365>,
+         "Runs the cycle before it at each point.", "", true),
+    in_q(221, "CARTESIAN PATTERN", Shape::LinearPattern,
+         kOf<225, 226, 237, 238, 242, 243, 224, 200, 203, 204, 301, 460>,
          "Runs the cycle before it at each point, every second row backwards.", "", true),
-    in_q(225, "ENGRAVING", Shape::Engraving, k225,
+    in_q(225, "ENGRAVING", Shape::Engraving,
+         kOf<500, 513, 514, 515, 516, 374, 517, 207, 201, 206, 200, 203, 204, 367, 574>,
          "The tool goes to the depth where the text begins.",
          "The strokes and the places of the characters: the font is the control's."),
     in_q(232, "FACE MILLING", Shape::FaceMilling, k232,
@@ -361,28 +320,55 @@ constexpr MachiningCycle kCycles[] = {
          "Each infeed goes through the lanes in reverse. With Q389 = 1 the next lane is reached "
          "at Q207, else at Q253.",
          "A tooth radius R2, which makes the lanes of the control narrower."),
-    in_q(240, "CENTERING", Shape::Drilling, k240, kDrillingText),
-    in_q(241, "SINGLE-LIP D.H.DRLNG", Shape::Drilling, k241,
+    in_q(240, "CENTERING", Shape::Drilling,
+         kOf<200, 343, 201, 344, 206, 211, 203, 204, 341, 342, 395>, kDrillingText),
+    in_q(241, "SINGLE-LIP D.H.DRLNG", Shape::Drilling,
+         kOf<200, 201, 206, 211, 203, 204, 379, 253, 208, 426, 427, 428, 429, 430, 435, 401, 202,
+             212, 205>,
          "Entry to the deepened starting point and retraction at the speed Q427, the spindle by "
          "Q426; drilling at Q428 with coolant (Q429, Q430); beyond the dwell depth Q435 at Q401 "
          "percent of the feed. Infeeds dwell (Q211) without retraction. Then speed, spindle and "
          "coolant are as before.",
          "M functions other than M8 and M9 in Q429 and Q430."),
-    in_q(251, "RECTANGULAR POCKET", Shape::RectangularPocket, k251, kPocketText, kNoClearing),
-    in_q(252, "CIRCULAR POCKET", Shape::CircularPocket, k252, kPocketText, kNoClearing),
-    in_q(253, "SLOT MILLING", Shape::Slot, k253, kPocketText, kNoClearing),
-    in_q(254, "CIRCULAR SLOT", Shape::CircularSlot, k254, kPocketText, kNoClearing),
-    in_q(256, "RECTANGULAR STUD", Shape::RectangularStud, k256, kStudText,
+    in_q(251, "RECTANGULAR POCKET", Shape::RectangularPocket,
+         kPlaced<4, 215, 218, 219, 220, 368, 224, 367, 207, 351, 201, 202, 369, 206, 338, 200, 203,
+                 204, 370, 366, 385, 439>,
+         kPocketText, kNoClearing),
+    in_q(252, "CIRCULAR POCKET", Shape::CircularPocket,
+         kOf<215, 223, 368, 207, 351, 201, 202, 369, 206, 338, 200, 203, 204, 370, 366, 385, 439>,
+         kPocketText, kNoClearing),
+    in_q(253, "SLOT MILLING", Shape::Slot,
+         kPlaced<4, 215, 218, 219, 368, 374, 367, 207, 351, 201, 202, 369, 206, 338, 200, 203, 204,
+                 366, 385, 439>,
+         kPocketText, kNoClearing),
+    in_q(254, "CIRCULAR SLOT", Shape::CircularSlot,
+         kPlaced<3, 215, 219, 368, 375, 367, 216, 217, 376, 248, 378, 377, 207, 351, 201, 202, 369,
+                 206, 338, 200, 203, 204, 366, 385, 439>,
+         kPocketText, kNoClearing),
+    in_q(256, "RECTANGULAR STUD", Shape::RectangularStud,
+         kPlaced<4, 218, 424, 219, 425, 220, 368, 224, 367, 207, 351, 201, 202, 206, 200, 203, 204,
+                 370, 437, 215, 369, 338, 385>,
+         kStudText,
          "Q437: every stud is approached 2 mm to the right of the blank. Finishing as a separate "
          "step (Q338, Q385)."),
-    in_q(257, "CIRCULAR STUD", Shape::CircularStud, k257, kStudText,
+    in_q(257, "CIRCULAR STUD", Shape::CircularStud,
+         kOf<223, 222, 368, 207, 351, 201, 202, 206, 200, 203, 204, 370, 376, 215, 369, 338, 385>,
+         kStudText,
          "Finishing as a separate step (Q338, Q385). The tool comes from 2 mm beside the blank at "
          "Q376."),
-    in_q(262, "THREAD MILLING", Shape::ThreadMilling, k262, kThreadText),
-    in_q(263, "THREAD MLLNG/CNTSNKG", Shape::ThreadMilling, k263, kThreadText),
-    in_q(264, "THREAD DRILLNG/MLLNG", Shape::ThreadMilling, k264, kThreadText),
-    in_q(265, "HEL. THREAD DRLG/MLG", Shape::ThreadMilling, k265, kThreadText),
-    in_q(267, "OUTSIDE THREAD MLLNG", Shape::ThreadMilling, k267, kThreadText),
+    in_q(262, "THREAD MILLING", Shape::ThreadMilling,
+         kOf<335, 239, 201, 355, 253, 351, 200, 203, 204, 207, 512>, kThreadText),
+    in_q(263, "THREAD MLLNG/CNTSNKG", Shape::ThreadMilling,
+         kOf<335, 239, 201, 356, 253, 351, 200, 357, 358, 359, 203, 204, 254, 207, 512>,
+         kThreadText),
+    in_q(264, "THREAD DRILLNG/MLLNG", Shape::ThreadMilling,
+         kOf<335, 239, 201, 356, 253, 351, 202, 258, 257, 256, 358, 359, 200, 203, 204, 206, 207,
+             512>,
+         kThreadText),
+    in_q(265, "HEL. THREAD DRLG/MLG", Shape::ThreadMilling,
+         kOf<335, 239, 201, 253, 358, 359, 360, 200, 203, 204, 254, 207>, kThreadText),
+    in_q(267, "OUTSIDE THREAD MLLNG", Shape::ThreadMilling,
+         kOf<335, 239, 201, 355, 253, 351, 200, 358, 359, 203, 204, 254, 207, 512>, kThreadText),
 };
 
 /// A value that must not stand in that relation to another one, or to 0.
