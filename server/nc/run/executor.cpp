@@ -132,7 +132,7 @@ void Executor<kFollowed>::loop(const Instruction* first) {
     FITGAUGE_STORE(compute(pc->function, cells[pc->a], cells[pc->b]));
   FITGAUGE_OP(Evaluate):
     FITGAUGE_BEGIN();
-    FITGAUGE_CALL(evaluate_node(pc) ? pc + 1 : nullptr);
+    FITGAUGE_CALL(evaluate_node(pc));
 
   FITGAUGE_OP(JumpEqual):
     FITGAUGE_BEGIN();

@@ -36,33 +36,25 @@ bool ExecutorSteps::refuel(std::int64_t needed) {
   return true;
 }
 
-bool ExecutorSteps::call_program(std::shared_ptr<const LinkedProgram> program,
-                                 std::uint32_t return_to) {
+const Instruction* ExecutorSteps::call_program(std::shared_ptr<const LinkedProgram> program,
+                                               std::uint32_t return_to) {
   QParameters& parameters = channel_.parameters;
   auto locals = parameters.save_locals(channel_.linked());
   if (auto called = channel_.calls.call_program(std::move(program), {return_to, std::move(locals)});
-      !called) {
-    error_ = called.error();
-    return false;
-  }
+      !called)
+    return fail(called.error());
   parameters.enter(channel_.linked());
   load_program();
-  return true;
+  return code_;
 }
 
-bool ExecutorSteps::evaluate_node(const Instruction* pc) {
+const Instruction* ExecutorSteps::evaluate_node(const Instruction* pc) {
   enter(pc);
-  if (auto checked = channel_.budget.check(); !checked) {
-    error_ = checked.error();
-    return false;
-  }
+  if (auto checked = channel_.budget.check(); !checked) return fail(checked.error());
   const auto value = evaluate(channel_, NodeIndex{pc->a});
-  if (!value) {
-    error_ = value.error();
-    return false;
-  }
+  if (!value) return fail(value.error());
   cells_[pc->c] = *value;
-  return true;
+  return pc + 1;
 }
 
 const Instruction* ExecutorSteps::jump_when(const Instruction* pc) {
@@ -118,8 +110,7 @@ const Instruction* ExecutorSteps::statement(const Instruction* pc) {
     case Next::Kind::Block: return pc + 1;
     case Next::Kind::Jump: return code_ + next->target;
     case Next::Kind::CallLabel: return call_label(next->target, pc);
-    case Next::Kind::CallProgram:
-      return call_program(std::move(next->program), index_of(pc + 1)) ? code_ : nullptr;
+    case Next::Kind::CallProgram: return call_program(std::move(next->program), index_of(pc + 1));
     case Next::Kind::EndRun: break;
   }
   return nullptr;

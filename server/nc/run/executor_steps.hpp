@@ -37,9 +37,10 @@ class ExecutorSteps {
   NcError value_error(const Instruction& instruction) const;
   bool give_preassigned(const Instruction& instruction);
   bool refuel(std::int64_t needed);
-  bool evaluate_node(const Instruction* pc);
-  bool call_program(std::shared_ptr<const LinkedProgram> program, std::uint32_t return_to);
   // The next instruction; null after an error and at the end of the run.
+  const Instruction* evaluate_node(const Instruction* pc);
+  const Instruction* call_program(std::shared_ptr<const LinkedProgram> program,
+                                  std::uint32_t return_to);
   const Instruction* jump_when(const Instruction* pc);
   const Instruction* call_label(std::uint32_t target, const Instruction* pc);
   const Instruction* end_label(const Instruction* pc);
