@@ -119,7 +119,8 @@ MachineResult<void> Control::set_kinematics(const Kinematics& kinematics) {
 }
 
 void Control::refresh_table() {
-  state_.frames.set_table(is_following() ? table_at(state_.nose.rotary) : Transform{});
+  state_.frames.set_table(is_following() ? state_.kinematics.table(state_.nose.rotary)
+                                         : Transform{});
 }
 
 MachineResult<void> Control::dwell(double seconds) {

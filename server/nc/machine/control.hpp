@@ -82,7 +82,6 @@ class Control : public Machine {
   double reach(const Vec3& direction, double distance) const;
   void stand_at(const Position& nose);
   bool is_following() const { return state_.modes.tcpm || state_.frames.is_tilted(); }
-  Transform table_at(const Vec3& rotary) const;
   void refresh_table();
   ContactPoint contact_point(const Vec3& direction) const;
 

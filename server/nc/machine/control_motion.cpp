@@ -25,7 +25,7 @@ MachineResult<void> Control::move_straight(const LinearMove& move) {
   std::optional<Frames> turned;
   if (turns && is_following()) {
     turned = state_.frames;
-    turned->set_table(table_at(rotary));
+    turned->set_table(state_.kinematics.table(rotary));
   }
   const auto nose = TRY(target_nose(move, turned ? *turned : state_.frames, rotary));
   TRY(check_range(nose));
@@ -188,12 +188,10 @@ MachineResult<void> Control::check_range(const Position& nose) const {
   return {};
 }
 
-Transform Control::table_at(const Vec3& rotary) const { return state_.kinematics.table(rotary); }
-
 void Control::stand_at(const Position& nose) {
   const bool has_turned = nose.rotary != state_.nose.rotary;
   state_.nose = nose;
-  if (has_turned && is_following()) state_.frames.set_table(table_at(nose.rotary));
+  if (has_turned && is_following()) state_.frames.set_table(state_.kinematics.table(nose.rotary));
 }
 
 MachineResult<void> Control::check_feed(const Feed& feed) {

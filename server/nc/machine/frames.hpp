@@ -170,8 +170,11 @@ class Kinematics {
   Vec3 tool_vector(const Vec3& rotary, Axis tool_axis, double length,
                    const Displacements& rest = {}) const;
 
-  /// The unit vector from the tool tip to the spindle nose, in machine coordinates.
+  /// The unit vector from the tool tip to the spindle nose, in machine coordinates or on the table.
   Vec3 tool_direction(const Vec3& rotary, Axis tool_axis) const;
+  Vec3 tool_on_table(const Vec3& rotary, Axis tool_axis) const {
+    return table(rotary).inverse().direction(tool_direction(rotary, tool_axis));
+  }
 
   /// Returns rotary positions at which the tool is along `normal`, a unit vector fixed to the
   /// table: `current` if it is already, else by one axis, else by two; other axes keep their

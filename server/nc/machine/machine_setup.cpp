@@ -355,20 +355,4 @@ Position MachineSetup::start_position() const {
   return position;
 }
 
-ToolSetup MachineSetup::default_probe_tool() {
-  ToolSetup tool;
-  tool.row.number = 30;
-  tool.row.name = "PROBE";
-  tool.row.l = 120;
-  tool.row.r = 2;
-  tool.row.probe = 1;
-  return tool;
-}
-
-Preset MachineSetup::default_preset() {
-  Preset preset;
-  preset.number = 1;
-  return preset;
-}
-
 }  // namespace fitgauge::machine

@@ -91,7 +91,8 @@ struct MachineSetup {
   /// range.
   AxisWords start;
   double rapid_mm_min = 15000;
-  std::vector<ToolSetup> tools{default_probe_tool()};
+  std::vector<ToolSetup> tools{
+      {{.number = 30, .name = "PROBE", .l = 120, .r = 2, .probe = 1}, {}, {}}};
   std::vector<ProbeSetup> probes{ProbeSetup{}};
   ToolTouchProbeSetup tt;
   KinematicsOptions kinematics_options;
@@ -104,8 +105,7 @@ struct MachineSetup {
 
   /// Start position of the axes: Z at the top of its range, the others at 0.
   Position start_position() const;
-  static ToolSetup default_probe_tool();  ///< 30, PROBE, 120 mm, ball radius 2 mm, probe 1
-  static Preset default_preset();         ///< row 1, zero
+  static Preset default_preset() { return {.number = 1, .comment = {}, .frame = {}}; }  ///< zero
 };
 
 /// Material from `min` to `max`.
