@@ -27,7 +27,7 @@ class Channel {
   /// mm in one unit of a programmed length.
   double length_unit() const { return linked().is_inch() ? 25.4 : 1.0; }
 
-  machine::Machine& machine() const { return environment.machine; }
+  Machine& machine() const { return environment.machine; }
   const MachineState& state() const { return environment.machine.state(); }
   Timestamp now() const { return environment.clock.now(); }
 

@@ -40,7 +40,7 @@ NcError no_approach() {
 
 }  // namespace
 
-WorkingPlane working_plane(const machine::Machine& machine) {
+WorkingPlane working_plane(const Machine& machine) {
   return WorkingPlane::across(machine.state().tool_axis());
 }
 
@@ -55,7 +55,7 @@ void Contour::compensate(klartext::RadiusCompensation compensation) {
                                                               : 0;
 }
 
-Position Contour::position(const machine::Machine& machine) const {
+Position Contour::position(const Machine& machine) const {
   Position position = drawing_ ? drawing_->position() : machine.position();
   if (beside_ && (cutter_.is_pending() || position == beside_->tool))
     position = beside_->programmed;
@@ -63,14 +63,14 @@ Position Contour::position(const machine::Machine& machine) const {
   return last != nullptr ? moved(position, last->target) : position;
 }
 
-NcResult<void> Contour::move(machine::Machine& machine, const Element& element) {
+NcResult<void> Contour::move(Machine& machine, const Element& element) {
   auto done = CutterPath::move(machine, element);
   has_entered_part = has_entered_part || machine.has_entered_part();
   return done;
 }
 
 /// Passes an element to the cutter and stores the new end of the programmed path.
-NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
+NcResult<void> Contour::cut(Machine& machine, const Element& element) {
   if (drawing_) return drawing_->add(element);
   const bool is_beside = element.side != 0 || cutter_.side() != 0;
   if (!is_beside && (is_shifted_ || element.shift != Vec3{})) return move_shifted(machine, element);
@@ -84,7 +84,7 @@ NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
 }
 
 /// LN with DR: the tool is offset from the programmed path until a block without a normal.
-NcResult<void> Contour::move_shifted(machine::Machine& machine, Element element) {
+NcResult<void> Contour::move_shifted(Machine& machine, Element element) {
   const Position programmed = moved(position(machine), element.target);
   for (std::size_t axis = 0; axis < 3; ++axis)
     element.target.values[axis] = programmed.linear[axis] + element.shift[axis];
@@ -94,7 +94,7 @@ NcResult<void> Contour::move_shifted(machine::Machine& machine, Element element)
   return {};
 }
 
-NcResult<void> Contour::add(machine::Machine& machine, Element element, bool corner_follows) {
+NcResult<void> Contour::add(Machine& machine, Element element, bool corner_follows) {
   if (element.system != CoordinateSystem::Input) {
     if (drawing_) return nc_error("M91 and M92 are not allowed in the contour of an SL cycle");
     TRY(finish(machine));
@@ -126,7 +126,7 @@ NcResult<void> Contour::set_corner(double size, bool is_chamfer, std::optional<F
 }
 
 /// Moves along the postponed element up to the corner and around it; `next` begins after it.
-NcResult<void> Contour::turn_corner(machine::Machine& machine, Element& next) {
+NcResult<void> Contour::turn_corner(Machine& machine, Element& next) {
   Element before = *std::exchange(kept_, std::nullopt);
   const auto corner = std::exchange(corner_, std::nullopt);
   if (!corner) return cut(machine, before);
@@ -154,7 +154,7 @@ NcResult<void> Contour::turn_corner(machine::Machine& machine, Element& next) {
   return cut(machine, along(*between, before, feed));
 }
 
-NcResult<void> Contour::add(machine::Machine& machine, Approach approach) {
+NcResult<void> Contour::add(Machine& machine, Approach approach) {
   if (drawing_) return no_approach();
   TRY(finish(machine));
   cutter_.leave();
@@ -163,7 +163,7 @@ NcResult<void> Contour::add(machine::Machine& machine, Approach approach) {
 }
 
 /// Moves the centre of the tool to the begin of the contour, which `next` continues.
-NcResult<void> Contour::approach(machine::Machine& machine, const Element& next) {
+NcResult<void> Contour::approach(Machine& machine, const Element& next) {
   const auto contour_direction = next.curve.start_direction();
   if (!contour_direction)
     return nc_error(1024, "the contour after APPR does not begin in the working plane");
@@ -207,7 +207,7 @@ NcResult<void> Contour::approach(machine::Machine& machine, const Element& next)
   return {};
 }
 
-NcResult<Vec2> Contour::depart(machine::Machine& machine, const WorkingPlane& plane) {
+NcResult<Vec2> Contour::depart(Machine& machine, const WorkingPlane& plane) {
   if (drawing_) return no_approach();
   TRY(finish(machine));
   cutter_.leave();
@@ -215,7 +215,7 @@ NcResult<Vec2> Contour::depart(machine::Machine& machine, const WorkingPlane& pl
   return plane.project(machine.position().linear);
 }
 
-NcResult<void> Contour::finish(machine::Machine& machine) {
+NcResult<void> Contour::finish(Machine& machine) {
   if (approach_) {
     approach_.reset();
     return nc_error(1024, "APPR must be followed by the first contour element");

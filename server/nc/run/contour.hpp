@@ -36,7 +36,7 @@ SlPath path_along(const SlContour& contour, double reach, bool is_climb);
 class SlDrawing {
  public:
   /// Begins at the position of the machine, which must outlive this.
-  explicit SlDrawing(const machine::Machine& machine)
+  explicit SlDrawing(const Machine& machine)
       : machine_(&machine),
         begun_in_(machine.state().frames),
         at_(begun_in_.to_machine(machine.position().linear)) {}
@@ -53,7 +53,7 @@ class SlDrawing {
   int side() const { return side_; }
 
  private:
-  const machine::Machine* machine_;
+  const Machine* machine_;
   Frames begun_in_;
   Vec3 at_;  ///< in Machine coordinates
   bool has_begun_ = false;
@@ -85,23 +85,23 @@ class Contour {
 
   /// End point of the last block in input coordinates, even if the machine has not reached it or
   /// the tool is offset.
-  Position position(const machine::Machine& machine) const;
+  Position position(const Machine& machine) const;
 
   /// Moves along an element, or keeps it when a corner follows (RND, CHF).
-  NcResult<void> add(machine::Machine& machine, Element element, bool corner_follows);
+  NcResult<void> add(Machine& machine, Element element, bool corner_follows);
   /// RND (`size` is the radius) or CHF (the side, decision 30) after the last element.
   NcResult<void> set_corner(double size, bool is_chamfer, std::optional<Feed> feed);
-  NcResult<void> add(machine::Machine& machine, Approach approach);
+  NcResult<void> add(Machine& machine, Approach approach);
   /// DEP: moves to the end of the contour. @returns the position of the tool's centre.
-  NcResult<Vec2> depart(machine::Machine& machine, const WorkingPlane& plane);
+  NcResult<Vec2> depart(Machine& machine, const WorkingPlane& plane);
   /// Starts to draw the contour of an SL cycle: from here on nothing moves.
-  void draw(const machine::Machine& machine) { drawing_.emplace(machine); }
+  void draw(const Machine& machine) { drawing_.emplace(machine); }
   /// Null while the path moves the machine.
   const SlDrawing* drawing() const { return drawing_ ? &*drawing_ : nullptr; }
 
   /// Moves postponed elements before any other block than positioning.
   /// @errors 1022, 1024 if the element of RND, CHF or APPR is missing.
-  NcResult<void> finish(machine::Machine& machine);
+  NcResult<void> finish(Machine& machine);
 
   /// RL, RR, R0, R+, R- of a block; also applies to later blocks.
   void compensate(klartext::RadiusCompensation compensation);
@@ -129,11 +129,11 @@ class Contour {
     Position tool;
   };
 
-  NcResult<void> move(machine::Machine& machine, const Element& element);
-  NcResult<void> cut(machine::Machine& machine, const Element& element);
-  NcResult<void> move_shifted(machine::Machine& machine, Element element);
-  NcResult<void> turn_corner(machine::Machine& machine, Element& next);
-  NcResult<void> approach(machine::Machine& machine, const Element& first);
+  NcResult<void> move(Machine& machine, const Element& element);
+  NcResult<void> cut(Machine& machine, const Element& element);
+  NcResult<void> move_shifted(Machine& machine, Element element);
+  NcResult<void> turn_corner(Machine& machine, Element& next);
+  NcResult<void> approach(Machine& machine, const Element& first);
 
   CutterPath cutter_;
   std::optional<SlDrawing> drawing_;
@@ -147,6 +147,6 @@ class Contour {
 };
 
 /// The working plane of the tool in the spindle.
-WorkingPlane working_plane(const machine::Machine& machine);
+WorkingPlane working_plane(const Machine& machine);
 
 }  // namespace fitgauge::interpreter

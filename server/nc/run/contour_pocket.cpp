@@ -249,7 +249,7 @@ class ContourCycle {
   }
 
   NcResult<void> follow(const SlPath& path) {
-    machine::Machine& machine = channel_.machine();
+    Machine& machine = channel_.machine();
     CutterPath cutter(allowance());
     cutter.begin(path.start, path.side);
     for (const Curve& curve : path.curves) {

@@ -48,8 +48,7 @@ class VectorPath {
   NcResult<void> split(const VectorStop& begin, const VectorStop& end, int halvings) {
     TRY(budget_.check());
     VectorStop middle{(begin.part + end.part) / 2, (begin.rotary + end.rotary) * 0.5};
-    const Vec3 tool =
-        machine::Matrix3::rotation(machine::unit(axis_), angle_deg_ * middle.part) * first_;
+    const Vec3 tool = Matrix3::rotation(unit(axis_), angle_deg_ * middle.part) * first_;
     const bool is_near =
         norm(tool_at(middle.rotary) - tool) < machine::radians(tolerance::kToolVectorDeg);
     if (halvings == kMostHalvings || (halvings >= kLeastHalvings && is_near)) {
@@ -69,8 +68,7 @@ class VectorPath {
  private:
   /// The direction of the tool on the table.
   Vec3 tool_at(const Vec3& rotary) const {
-    const machine::Transform table = state_.kinematics.table(rotary);
-    return table.inverse().direction(state_.kinematics.tool_direction(rotary, state_.tool_axis()));
+    return state_.kinematics.tool_on_table(rotary, state_.tool_axis());
   }
 
   const MachineState& state_;
@@ -89,16 +87,16 @@ NcResult<void> check_scaling(const MachineState& state, const WorkingPlane& plan
   return nc_error(1108, "{} not available in a plane whose axes are scaled differently", what);
 }
 
-double CutterPath::radius(const machine::Machine& machine) {
+double CutterPath::radius(const Machine& machine) {
   return radius_in_plane(machine.state(), machine.state().tool_radius());
 }
 
-NcResult<void> CutterPath::move(machine::Machine& machine, const Element& element) {
+NcResult<void> CutterPath::move(Machine& machine, const Element& element) {
   if (!element.curve.is_arc()) return machine.move({element.target, element.feed, element.system});
   const WorkingPlane& plane = element.plane;
   TRY(check_scaling(machine.state(), plane, "an arc is"));
   Vec3 end = plane.with(machine.position().linear, element.curve.end);
-  const auto normal = machine::index(plane.normal);
+  const auto normal = index(plane.normal);
   if (const auto& height = element.target.values[normal]) end[normal] = *height;
   return machine.move_arc({end, plane.with(end, *element.curve.centre), element.curve.sweep_deg,
                            plane.normal, element.feed});
@@ -109,7 +107,7 @@ void CutterPath::begin(Vec2 centre, int side) {
   begun_ = centre;
 }
 
-NcResult<void> CutterPath::add(machine::Machine& machine, const Element& next) {
+NcResult<void> CutterPath::add(Machine& machine, const Element& next) {
   if (next.side == 0 && side_ == 0) return move(machine, next);
   if (next.side != 0) TRY(check_scaling(machine.state(), next.plane, "RL and RR are"));
   if (!next.moves_in_plane() && next.side == side_) {
@@ -136,7 +134,7 @@ NcResult<void> CutterPath::add(machine::Machine& machine, const Element& next) {
   return join(machine, next);
 }
 
-NcResult<void> CutterPath::enter(machine::Machine& machine, const Element& next) {
+NcResult<void> CutterPath::enter(Machine& machine, const Element& next) {
   if (next.curve.is_arc()) return nc_error(1021, "RL and RR must begin with a straight block");
   if (!next.moves_in_plane()) return move(machine, next);
   last_ = next;
@@ -144,7 +142,7 @@ NcResult<void> CutterPath::enter(machine::Machine& machine, const Element& next)
   return {};
 }
 
-NcResult<void> CutterPath::join(machine::Machine& machine, const Element& next) {
+NcResult<void> CutterPath::join(Machine& machine, const Element& next) {
   const double distance = side_ * reach(machine);
   const auto leaving = next.curve.start_direction();  // the element moves in the plane
   if (const auto offset = offset_curve(next.curve, distance); !offset)
@@ -190,7 +188,7 @@ NcResult<void> CutterPath::join(machine::Machine& machine, const Element& next) 
   return {};
 }
 
-NcResult<void> CutterPath::move_to(machine::Machine& machine, Vec2 end) {
+NcResult<void> CutterPath::move_to(Machine& machine, Vec2 end) {
   Element element = *std::exchange(last_, std::nullopt);
   if (!is_entry_) {
     if (!goes_forward(element.curve, at_, end))
@@ -213,7 +211,7 @@ NcResult<void> CutterPath::move_to(machine::Machine& machine, Vec2 end) {
   return {};
 }
 
-NcResult<void> CutterPath::finish(machine::Machine& machine) {
+NcResult<void> CutterPath::finish(Machine& machine) {
   if (!last_) return {};
   const auto direction = last_->curve.end_direction();
   const Vec2 end = last_->curve.end + left_of(*direction) * (side_ * reach(machine));

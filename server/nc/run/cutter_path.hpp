@@ -6,7 +6,8 @@
 
 namespace fitgauge::interpreter {
 
-using machine::Axis, machine::CoordinateSystem, machine::Feed, machine::Frames,
+using machine::Axis, machine::AxisWords, machine::CoordinateSystem, machine::kAllAxes,
+    machine::kAxes, machine::Machine, machine::Matrix3, machine::Feed, machine::Frames,
     machine::MachineState, machine::Modes, machine::Position, machine::RotaryAxis, machine::Tool,
     machine::Vec3;
 
@@ -16,7 +17,7 @@ struct Element {
   WorkingPlane plane;
   Curve curve;
   Vec3 from;  ///< end of the previous block
-  machine::AxisWords target;
+  AxisWords target;
   Feed feed;
   CoordinateSystem system = CoordinateSystem::Input;
   int side = 0;  ///< of the contour that the tool is on: 1 left (RL), -1 right (RR), 0 on it
@@ -39,8 +40,8 @@ NcResult<void> check_scaling(const MachineState& state, const WorkingPlane& plan
                              std::string_view what);
 
 /// The position with the axes that words name.
-inline Position moved(Position position, const machine::AxisWords& words) {
-  for (const Axis axis : machine::kAllAxes) {
+inline Position moved(Position position, const AxisWords& words) {
+  for (const Axis axis : kAllAxes) {
     if (const auto& value = words[axis]) position[axis] = *value;
   }
   return position;
@@ -62,9 +63,9 @@ class CutterPath {
   explicit CutterPath(double allowance) : allowance_(allowance) {}
 
   /// @errors 1003 the tool does not fit into a corner or arc; 1021 RL or RR begins with an arc.
-  NcResult<void> add(machine::Machine& machine, const Element& next);
+  NcResult<void> add(Machine& machine, const Element& next);
   /// Moves along postponed elements, up to the point square to their end.
-  NcResult<void> finish(machine::Machine& machine);
+  NcResult<void> finish(Machine& machine);
   /// The tool is at the offset start of the next element's contour (APPR).
   void begin(Vec2 centre, int side);
   /// The tool has left the contour (DEP).
@@ -74,18 +75,18 @@ class CutterPath {
   int side() const { return side_; }
 
   /// Moves along an element without offset.
-  static NcResult<void> move(machine::Machine& machine, const Element& element);
-  static double radius(const machine::Machine& machine);
+  static NcResult<void> move(Machine& machine, const Element& element);
+  static double radius(const Machine& machine);
 
  private:
-  NcResult<void> enter(machine::Machine& machine, const Element& next);
-  NcResult<void> join(machine::Machine& machine, const Element& next);
+  NcResult<void> enter(Machine& machine, const Element& next);
+  NcResult<void> join(Machine& machine, const Element& next);
   /// Moves along the postponed element, which ends at `end` for the centre of the tool, and along
   /// the blocks after it.
-  NcResult<void> move_to(machine::Machine& machine, Vec2 end);
+  NcResult<void> move_to(Machine& machine, Vec2 end);
 
   /// Returns the distance from the contour to the centre of the cutter.
-  double reach(const machine::Machine& machine) const { return radius(machine) + allowance_; }
+  double reach(const Machine& machine) const { return radius(machine) + allowance_; }
 
   double allowance_ = 0;
   int side_ = 0;

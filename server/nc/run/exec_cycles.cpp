@@ -37,13 +37,13 @@ class ChannelCycleHost final : public probing::CycleHost {
   Timestamp now() const override { return channel_.now(); }
 
   probing::CycleResult<void> append_log(std::string_view name, std::string_view text) override {
-    const auto path = TRY(channel_.resolve_printed(name));
-    return reported(channel_.files.append(path, text));
+    const auto path = channel_.resolve_printed(name);
+    return reported(path ? channel_.files.append(*path, text) : path.error());
   }
 
   probing::CycleResult<void> write_log(std::string_view name, std::string_view text) override {
-    const auto path = TRY(channel_.resolve_printed(name));
-    return reported(channel_.files.write(path, std::string(text)));
+    const auto path = channel_.resolve_printed(name);
+    return reported(path ? channel_.files.write(*path, std::string(text)) : path.error());
   }
 
   void stop(std::string_view reason) override {
@@ -80,7 +80,7 @@ class ChannelCycleHost final : public probing::CycleHost {
 
   void touched(const machine::ContactPoint& contact) override { channel_.last_touch = contact; }
 
-  probing::CycleResult<void> write_datum(int row, const machine::AxisWords& values) override {
+  probing::CycleResult<void> write_datum(int row, const AxisWords& values) override {
     return reported(channel_.tables.write_datum(row, values));
   }
 
@@ -238,9 +238,9 @@ namespace {
 /// the tool axis.
 NcResult<Next> call_at_position(Channel& channel, const MotionWords& words) {
   TRY(channel.contour.finish(channel.machine()));
-  machine::AxisWords target;
-  for (const Axis axis : machine::kAllAxes) {
-    const auto& word = words.axes[machine::index(axis)];
+  AxisWords target;
+  for (const Axis axis : kAllAxes) {
+    const auto& word = words.axes[index(axis)];
     if (word) target[axis] = word->after(channel.machine().position()[axis]);
   }
   auto* machining = std::get_if<MachiningDefinition>(&channel.active_cycle.definition);

@@ -5,7 +5,6 @@ namespace fitgauge::interpreter {
 namespace {
 
 using klartext::PlaneKind;
-using machine::Matrix3;
 
 /// Words of PLANE by letter; a word without a value counts as 1.
 using PlaneWords = std::map<Letter, double>;
@@ -39,11 +38,11 @@ Matrix3 from_axes(const Vec3& x, const Vec3& z) {
 NcResult<Matrix3> plane_of(const Vec3& normal, const Vec3& x) {
   if (norm(normal) < tolerance::kSameDirection)
     return nc_error(1018, "the normal vector has no length");
-  const Vec3 z = machine::unit(normal);
+  const Vec3 z = unit(normal);
   const Vec3 in_plane = x - z * dot(x, z);
   if (norm(in_plane) < tolerance::kSameDirection)
     return nc_error(1018, "base and normal vector are parallel");
-  return from_axes(machine::unit(in_plane), z);
+  return from_axes(unit(in_plane), z);
 }
 
 Matrix3 around(Letter axis, double angle) {
@@ -65,9 +64,8 @@ NcResult<Matrix3> axial(const Channel& channel, const PlaneWords& words) {
     const auto it = words.find(static_cast<Letter>(i + 3));
     if (it != words.end()) rotary[i] = it->second;
   }
-  const machine::Transform to_table = state.kinematics.table(rotary).inverse();
-  return plane_of(to_table.direction(state.kinematics.tool_direction(rotary, state.tool_axis())),
-                  to_table.direction({1, 0, 0}));
+  return plane_of(state.kinematics.tool_on_table(rotary, state.tool_axis()),
+                  state.kinematics.table(rotary).inverse().direction({1, 0, 0}));
 }
 
 /// The rotation of a plane relative to the workpiece system.

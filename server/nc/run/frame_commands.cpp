@@ -21,14 +21,13 @@ void turn_free_axis(const MachineState& state, const Frames& plane, Vec3& rotary
   });
   if (next_to_workpiece == axes.rend()) return;
   const auto working = WorkingPlane::across(state.tool_axis());
-  const Vec3 normal =
-      machine::unit(plane.direction_to_machine(machine::unit_vector(state.tool_axis())));
+  const Vec3 normal = unit(plane.direction_to_machine(unit_vector(state.tool_axis())));
   const double along = dot(normal, next_to_workpiece->direction);
   if (std::abs(along) < 1 - tolerance::kSameDirection) return;
-  double& angle = rotary[machine::index(next_to_workpiece->axis) - 3];
+  double& angle = rotary[index(next_to_workpiece->axis) - 3];
   angle = 0;
   const Vec3 main_axis = state.kinematics.table(rotary).direction(
-      plane.direction_to_machine(machine::unit_vector(static_cast<Axis>(working.first))));
+      plane.direction_to_machine(unit_vector(static_cast<Axis>(working.first))));
   const Vec2 seen = working.project(main_axis);
   const double turn = machine::degrees(std::atan2(seen.y, seen.x));
   angle = along > 0 ? turn : -turn;
@@ -42,9 +41,9 @@ bool is_on_side(const MachineState& state, const PlaneMoves& moves, const Vec3& 
   const auto primary =
       std::find_if(axes.begin(), axes.end(), [](const auto& axis) { return axis.axis != Axis::C; });
   if (moves.sequence == 0 || primary == axes.end()) return true;
-  const auto& range = state.ranges[machine::index(primary->axis)];
+  const auto& range = state.ranges[index(primary->axis)];
   const double zero = moves.is_symmetric && range ? (range->min + range->max) / 2 : 0;
-  const double angle = rotary[machine::index(primary->axis) - 3] - zero;
+  const double angle = rotary[index(primary->axis) - 3] - zero;
   return moves.sequence > 0 ? angle >= 0 : angle <= 0;
 }
 
@@ -56,8 +55,7 @@ NcResult<std::optional<Vec3>> rotary_positions(Channel& channel, const Frames& f
   Frames plane;
   plane.set_preset(frames.preset());
   plane.set_plane(frames.plane());
-  const Vec3 normal =
-      machine::unit(plane.direction_to_machine(machine::unit_vector(state.tool_axis())));
+  const Vec3 normal = unit(plane.direction_to_machine(unit_vector(state.tool_axis())));
   for (const Vec3& found :
        state.kinematics.orientations(normal, state.nose.rotary, state.tool_axis())) {
     auto rotary = in_range(state, found, found);
@@ -78,23 +76,22 @@ NcResult<std::optional<Vec3>> rotary_positions(Channel& channel, const Frames& f
 Vec3 tool_at(const MachineState& state, const Vec3& rotary) {
   Frames on_table = state.frames;
   on_table.set_table({});
-  const Vec3 tool = state.kinematics.tool_direction(rotary, state.tool_axis());
-  const Vec3 workpiece = state.kinematics.table(rotary).inverse().direction(tool);
-  return machine::unit(on_table.direction_from_machine(workpiece));
+  const Vec3 tool = state.kinematics.tool_on_table(rotary, state.tool_axis());
+  return unit(on_table.direction_from_machine(tool));
 }
 
 /// MOVE keeps the tip in place on the workpiece, TURN does not move the linear axes.
 NcResult<void> turn(Channel& channel, const Vec3& rotary, const PlaneMoves& moves) {
-  machine::Machine& machine = channel.machine();
+  Machine& machine = channel.machine();
   if (moves.retraction) TRY(retract(channel, *moves.retraction));
   const Modes before = machine.state().modes;
   Modes during = before;
   during.tcpm = moves.positioning == PlanePositioning::Move;
   TRY(machine.set_modes(during));
   const Vec3 shown = machine.state().frames.rotary_from_machine(rotary, CoordinateSystem::Input);
-  machine::AxisWords target;
+  AxisWords target;
   for (const RotaryAxis& axis : machine.state().kinematics.axes())
-    target[axis.axis] = shown[machine::index(axis.axis) - 3];
+    target[axis.axis] = shown[index(axis.axis) - 3];
   if (during.tcpm && moves.distance != 0) {
     const MachineState& state = machine.state();
     const Vec3 swing = tool_at(state, rotary) - tool_at(state, state.nose.rotary);
@@ -128,8 +125,8 @@ Position untilted_shift(const Frames& frames) {
 NcResult<void> shift_datum(Channel& channel, const AxisCoordinates& axes) {
   return change_frames(channel, [&](Frames& frames) {
     Position shift = frames.datum_shift();
-    for (const Axis axis : machine::kAllAxes) {
-      const auto& word = axes[machine::index(axis)];
+    for (const Axis axis : kAllAxes) {
+      const auto& word = axes[index(axis)];
       if (word) shift[axis] = word->after(shift[axis]);
     }
     frames.set_datum_shift(shift);
@@ -139,8 +136,8 @@ NcResult<void> shift_datum(Channel& channel, const AxisCoordinates& axes) {
 NcResult<void> shift_datum_to_row(Channel& channel, std::int64_t row) {
   const auto values = TRY(channel.tables.datum(row));
   AxisCoordinates axes;
-  for (const Axis axis : machine::kAllAxes) {
-    if (values[axis]) axes[machine::index(axis)] = Coordinate{*values[axis], false};
+  for (const Axis axis : kAllAxes) {
+    if (values[axis]) axes[index(axis)] = Coordinate{*values[axis], false};
   }
   return shift_datum(channel, axes);
 }
@@ -168,7 +165,7 @@ NcResult<void> scale(Channel& channel, const machine::Scaling& scaling) {
   return change_frames(channel, [&](Frames& frames) { frames.set_scaling(scaling); });
 }
 
-NcResult<void> tilt(Channel& channel, const machine::Matrix3& rotation, const PlaneMoves& moves) {
+NcResult<void> tilt(Channel& channel, const Matrix3& rotation, const PlaneMoves& moves) {
   Frames frames = channel.state().frames;
   Position shift = untilted_shift(frames);
   frames.set_plane(machine::TiltedPlane{machine::spatial_angles(rotation), shift.linear});

@@ -57,7 +57,7 @@ class RecordReader {
     const auto axis = std::ranges::find_if(
         machine::kAllAxes, [&](Axis candidate) { return machine::name(candidate) == part; });
     const std::string_view mount = text(row, "ON");
-    if (axis == machine::kAllAxes.end() || !machine::is_rotary(*axis))
+    if (axis == machine::kAllAxes.end() || !is_rotary(*axis))
       return fail("AXIS must be one of: A, B, C, TOOL");
     if (mount != kOnTable && mount != kOnHead) return fail("ON must be one of: TABLE, HEAD");
     std::vector<RotaryAxis>& axes = found_[name].axes;

@@ -45,8 +45,8 @@ NcResult<void> retract(Channel& channel, const MCall& call) {
   const Vec3 direction = state.tool_direction(CoordinateSystem::Reference);
   const double length = call.to_limit ? room(state, direction) : call.length.value_or(0);
   const Vec3 target = state.nose.linear + direction * length;
-  return channel.machine().move({machine::AxisWords::linear(target),
-                                 call.feed.value_or(Feed::rapid()), CoordinateSystem::Reference});
+  return channel.machine().move(
+      {AxisWords::linear(target), call.feed.value_or(Feed::rapid()), CoordinateSystem::Reference});
 }
 
 NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& calls) {

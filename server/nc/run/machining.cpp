@@ -60,7 +60,7 @@ NcResult<void> note_probe(Channel& channel, const MachiningCycle& cycle) {
 
 }  // namespace
 
-ToolMotion::ToolMotion(machine::Machine& machine, RunBudget& budget)
+ToolMotion::ToolMotion(Machine& machine, RunBudget& budget)
     : machine_(machine),
       budget_(budget),
       plane_(WorkingPlane::across(machine.state().tool_axis())) {}
@@ -68,7 +68,7 @@ ToolMotion::ToolMotion(machine::Machine& machine, RunBudget& budget)
 NcResult<void> ToolMotion::to_height(double height, const Feed& feed) {
   TRY(budget_.check());
   if (std::abs(height - this->height()) < tolerance::kSamePoint) return {};
-  machine::AxisWords target;
+  AxisWords target;
   target[plane_.normal] = height;
   return machine_.move({target, feed});
 }
@@ -76,7 +76,7 @@ NcResult<void> ToolMotion::to_height(double height, const Feed& feed) {
 NcResult<void> ToolMotion::to_point(Vec2 point, const Feed& feed) {
   TRY(budget_.check());
   if (norm(point - this->point()) < tolerance::kSamePoint) return {};
-  machine::AxisWords target;
+  AxisWords target;
   target.values[plane_.first] = point.x;
   target.values[plane_.second] = point.y;
   return machine_.move({target, feed});
@@ -87,7 +87,7 @@ NcResult<void> ToolMotion::arc(Vec2 centre, Vec2 end, double sweep_deg, double h
   TRY(budget_.check());
   TRY(check_scaling(state(), plane_, "an arc is"));
   Vec3 target = plane_.with(machine_.position().linear, end);
-  target[machine::index(plane_.normal)] = height;
+  target[index(plane_.normal)] = height;
   return machine_.move_arc({target, plane_.with(target, centre), sweep_deg, plane_.normal, feed});
 }
 
@@ -102,9 +102,7 @@ NcResult<void> ToolMotion::set_modes(const Modes& modes) {
 
 Vec2 ToolMotion::point() const { return plane_.project(machine_.position().linear); }
 
-double ToolMotion::height() const {
-  return machine_.position().linear[machine::index(plane_.normal)];
-}
+double ToolMotion::height() const { return machine_.position().linear[index(plane_.normal)]; }
 
 Feed feed_of(double rate) { return std::isinf(rate) ? Feed::rapid() : Feed::at(rate); }
 

@@ -45,7 +45,7 @@ struct ActiveCycle {
 class ToolMotion {
  public:
   /// Both must outlive this object. The plane is that of the current tool.
-  ToolMotion(machine::Machine& machine, RunBudget& budget);
+  ToolMotion(Machine& machine, RunBudget& budget);
 
   NcResult<void> to_height(double height, const Feed& feed);
   NcResult<void> to_point(Vec2 point, const Feed& feed);
@@ -63,7 +63,7 @@ class ToolMotion {
   double tool_radius() const { return radius_in_plane(state(), state().tool_radius()); }
 
  private:
-  machine::Machine& machine_;
+  Machine& machine_;
   RunBudget& budget_;
   const WorkingPlane plane_;
 };

@@ -92,8 +92,7 @@ NcResult<void> read_word(Channel& channel, const Word& word, MotionWords& out) {
   if (word.argument) return read_argument(channel, word, out.m);
   if (is_axis(word.letter)) {
     const auto axis = TRY(machine_axis(word.letter));
-    return read_coordinate(channel, word, machine::is_rotary(axis) ? 1 : unit,
-                           out.axes[machine::index(axis)]);
+    return read_coordinate(channel, word, is_rotary(axis) ? 1 : unit, out.axes[index(axis)]);
   }
   switch (word.letter) {
     case Letter::Pr: return read_coordinate(channel, word, unit, out.pr);
@@ -122,8 +121,8 @@ bool MotionWords::has_m(int number) const {
 NcResult<Axis> machine_axis(Letter letter) {
   if (letter <= Letter::C) return static_cast<Axis>(letter);
   constexpr std::string_view kNames = "XYZABCUVW";
-  return machine::make_fault(machine::FaultKind::AxisMissing,
-                             kNames.substr(static_cast<std::size_t>(letter), 1));
+  return make_fault(machine::FaultKind::AxisMissing,
+                    kNames.substr(static_cast<std::size_t>(letter), 1));
 }
 
 NcResult<MotionWords> read_words(Channel& channel, Slice<Word> words) {

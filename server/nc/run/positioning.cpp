@@ -71,11 +71,10 @@ class Positioning {
   }
 
   /// The axes the block names, absolute.
-  machine::AxisWords target(const Position& from) const {
-    machine::AxisWords target;
-    for (const Axis axis : machine::kAllAxes) {
-      if (const auto& word = words_.axes[machine::index(axis)])
-        target[axis] = word->after(from[axis]);
+  AxisWords target(const Position& from) const {
+    AxisWords target;
+    for (const Axis axis : kAllAxes) {
+      if (const auto& word = words_.axes[index(axis)]) target[axis] = word->after(from[axis]);
     }
     return target;
   }
@@ -87,7 +86,7 @@ class Positioning {
     if (pole && (is_polar() || motion_.path == Path::C)) return pole->plane;
     const WorkingPlane working = working_plane(channel_.machine());
     if (motion_.path != Path::Cr && motion_.path != Path::Ct) return working;
-    const std::size_t tool_axis = machine::index(working.normal);
+    const std::size_t tool_axis = index(working.normal);
     const bool first = words_.axes[working.first].has_value();
     const bool second = words_.axes[working.second].has_value();
     if (!words_.axes[tool_axis] || first == second) return working;
@@ -221,7 +220,7 @@ class Positioning {
       const Vec3 rotary = state.frames.rotary_from_machine(stop.rotary, CoordinateSystem::Input);
       for (std::size_t axis = 0; axis < 3; ++axis) piece.target.values[axis] = point[axis];
       for (const RotaryAxis& axis : state.kinematics.axes())
-        piece.target[axis.axis] = rotary[machine::index(axis.axis) - 3];
+        piece.target[axis.axis] = rotary[index(axis.axis) - 3];
       piece.curve.end = plane_.project(point);
       piece.shift = shifted + (line.shift - shifted) * stop.part;
       if (is_last) break;
@@ -239,7 +238,7 @@ class Positioning {
     const MachineState& state = channel_.state();
     const Tool* tool = state.active_tool();
     const double oversize = state.tool.dr + (tool == nullptr ? 0 : tool->dr);
-    return machine::unit(*normal) * radius_in_plane(state, oversize);
+    return unit(*normal) * radius_in_plane(state, oversize);
   }
 
   /// R+ and R-: lengthens or shortens the move of each named axis of the plane by the tool radius.
@@ -256,7 +255,7 @@ class Positioning {
   }
 
   NcResult<void> arc() {
-    for (std::size_t axis = 3; axis < machine::kAxes; ++axis) {
+    for (std::size_t axis = 3; axis < kAxes; ++axis) {
       if (words_.axes[axis]) return nc_error(1019, "a rotary axis cannot follow an arc");
     }
     const auto end = TRY(end_point());

@@ -32,13 +32,13 @@ NcError unknown(const Address& address) {
 /// IDX 1 to 9: X Y Z A B C U V W. None for an axis that the machine lacks.
 std::optional<Axis> axis_of(const Address& address) {
   const int index = address.index.value_or(1);
-  if (index < 1 || index > static_cast<int>(machine::kAxes)) return std::nullopt;
+  if (index < 1 || index > static_cast<int>(kAxes)) return std::nullopt;
   return static_cast<Axis>(index - 1);
 }
 
 /// -1, 0, 1, 2: none, X, Y, Z (Q109).
 double axis_number(const std::optional<Axis>& axis) {
-  return axis ? static_cast<double>(machine::index(*axis)) : -1;
+  return axis ? static_cast<double>(index(*axis)) : -1;
 }
 
 using Answer = std::optional<double>;
@@ -78,7 +78,7 @@ Answer tool_data(const MachineState& state, const Address& address) {
 
 double position_data(const MachineState& state, Axis axis, CoordinateSystem system) {
   // Rounds like results of cycles to a nanometre, so that equal positions are equal (decision 21).
-  const double steps = machine::is_rotary(axis) ? 1e7 : 1e6;
+  const double steps = is_rotary(axis) ? 1e7 : 1e6;
   return std::round(state.position(system)[axis] * steps) / steps + 0.0;
 }
 
@@ -117,9 +117,9 @@ Answer axis_data(const Channel& channel, const Address& address) {
   const MachineState& state = channel.state();
   const auto& frames = state.frames;
   const auto& touch = channel.last_touch;
-  const auto& range = state.ranges[machine::index(*axis)];
+  const auto& range = state.ranges[index(*axis)];
   const bool is_rotary = machine::is_rotary(*axis);
-  const std::size_t i = machine::index(*axis) - (is_rotary ? 3 : 0);
+  const std::size_t i = index(*axis) - (is_rotary ? 3 : 0);
   const auto of_linear = [&](const Vec3& values) {
     return is_rotary ? std::nullopt : Answer(values[i]);
   };
@@ -181,9 +181,7 @@ Answer find(const Channel& channel, const Address& address) {
     case key(210, 3):
       return (frames.mirror()[0] ? 1 : 0) + (frames.mirror()[1] ? 2 : 0) +
              (frames.mirror()[2] ? 4 : 0);
-    case key(210, 4):
-      return axis && !machine::is_rotary(*axis) ? frames.scaling().factor[machine::index(*axis)]
-                                                : 1;
+    case key(210, 4): return axis && !is_rotary(*axis) ? frames.scaling().factor[index(*axis)] : 1;
     case key(210, 6): return frames.is_tilted() ? -1 : 0;
     case key(210, 7): return 0;  // not tilted in Manual
     case key(230, 5): return 1;  // the limits are active
@@ -217,9 +215,8 @@ NcResult<double> preset_data(const MachineState& state, const Address& address) 
   const machine::Preset* preset = state.presets.find(address.nr);
   const auto axis = axis_of(address);
   if (preset == nullptr || !axis) return unknown(address);
-  const std::size_t i = machine::index(*axis);
-  return machine::is_rotary(*axis) ? preset->frame.rotary_offsets_deg[i - 3]
-                                   : preset->frame.origin[i];
+  const std::size_t i = index(*axis);
+  return is_rotary(*axis) ? preset->frame.rotary_offsets_deg[i - 3] : preset->frame.origin[i];
 }
 
 NcResult<void> write_tool(Channel& channel, const Address& address, double value) {
@@ -245,8 +242,8 @@ NcResult<void> write_preset(Channel& channel, const Address& address, double val
   const machine::Preset* found = channel.state().presets.find(address.nr);
   machine::Preset preset = found != nullptr ? *found : machine::Preset{};
   preset.number = address.nr;
-  const std::size_t i = machine::index(*axis);
-  if (machine::is_rotary(*axis)) {
+  const std::size_t i = index(*axis);
+  if (is_rotary(*axis)) {
     preset.frame.rotary_offsets_deg[i - 3] = value;
   } else {
     preset.frame.origin[i] = value;
@@ -279,7 +276,7 @@ NcResult<void> write_system_data(Channel& channel, NodeIndex node, double value)
     case 500: {
       const auto axis = axis_of(address);
       if (!axis) return unknown(address);
-      machine::AxisWords words;
+      AxisWords words;
       words[*axis] = value;
       return channel.tables.write_datum(address.nr, words);
     }

@@ -149,7 +149,7 @@ NcResult<machine::AxisWords> TableAccess::datum(std::int64_t row) const {
   if (!found) return nc_error("datum table {}: {}", datum_->path.text(), found.error().message);
   machine::AxisWords values;
   for (const machine::Axis axis : machine::kAllAxes) {
-    const auto value = datum_->content->number(row, kAxisColumns[machine::index(axis)]);
+    const auto value = datum_->content->number(row, kAxisColumns[index(axis)]);
     if (value) values[axis] = *value;
   }
   return values;
@@ -159,8 +159,7 @@ NcResult<void> TableAccess::write_datum(std::int64_t row, const machine::AxisWor
   if (!datum_) return nc_error(1043, "write SEL TABLE before this block");
   for (const machine::Axis axis : machine::kAllAxes) {
     if (!values[axis]) continue;
-    const auto set =
-        editable(*datum_).set_number(row, kAxisColumns[machine::index(axis)], *values[axis]);
+    const auto set = editable(*datum_).set_number(row, kAxisColumns[index(axis)], *values[axis]);
     if (!set) return nc_error("datum table {}: {}", datum_->path.text(), set.error().message);
   }
   return save(datum_);

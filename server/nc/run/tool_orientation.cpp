@@ -21,7 +21,7 @@ NcResult<void> stand_along(Channel& channel, const Vec3& direction, MotionWords&
   const Vec3 from = state.frames.rotary_to_machine(position.rotary, CoordinateSystem::Input);
   Frames on_table = state.frames;
   on_table.set_table({});
-  const Vec3 normal = machine::unit(on_table.direction_to_machine(direction));
+  const Vec3 normal = unit(on_table.direction_to_machine(direction));
   const auto rotary = rotary_along(state, normal, from);
   if (!rotary) {
     return nc_error(1013,
@@ -31,7 +31,7 @@ NcResult<void> stand_along(Channel& channel, const Vec3& direction, MotionWords&
   const Vec3 shown = state.frames.rotary_from_machine(*rotary, CoordinateSystem::Input);
   for (std::size_t letter = 0; letter < 3; ++letter) words.axes[letter + 3].reset();
   for (const RotaryAxis& axis : state.kinematics.axes())
-    words.axes[machine::index(axis.axis)] = {shown[machine::index(axis.axis) - 3], false};
+    words.axes[index(axis.axis)] = {shown[index(axis.axis) - 3], false};
   return {};
 }
 
@@ -55,16 +55,15 @@ NcResult<void> turn_by_angles(Channel& channel, SpatialAngles& angles, MotionWor
     spatial[letter] = *angles[letter];
   }
   const Axis tool_axis = channel.state().tool_axis();
-  return stand_along(channel, machine::Matrix3::spatial(spatial) * machine::unit_vector(tool_axis),
-                     words);
+  return stand_along(channel, Matrix3::spatial(spatial) * unit_vector(tool_axis), words);
 }
 
 }  // namespace
 
 std::optional<Vec3> in_range(const MachineState& state, Vec3 rotary, const Vec3& from) {
   for (const RotaryAxis& axis : state.kinematics.axes()) {
-    const std::size_t letter = machine::index(axis.axis) - 3;
-    const auto& range = state.ranges[machine::index(axis.axis)];
+    const std::size_t letter = index(axis.axis) - 3;
+    const auto& range = state.ranges[index(axis.axis)];
     const auto turned = range ? nearest_turn(rotary[letter], from[letter], *range) : std::nullopt;
     if (!turned) return std::nullopt;
     rotary[letter] = *turned;

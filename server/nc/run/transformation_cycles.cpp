@@ -77,7 +77,7 @@ NcResult<void> working_plane_cycle(Channel& channel, Words words) {
   if (find(words, Letter::F) != nullptr || find(words, Letter::Value) != nullptr)
     TRY(channel.note("cycle 19: F and ABST have no effect, because the program turns the axes"));
   if (angles == Vec3{}) return reset_tilt(channel, {});
-  return tilt(channel, machine::Matrix3::spatial(angles), {});
+  return tilt(channel, Matrix3::spatial(angles), {});
 }
 
 NcResult<void> program_call(Channel& channel, Words words) {
@@ -107,8 +107,8 @@ NcResult<AxisCoordinates> read_axis_words(Channel& channel, std::span<const Word
     if (!is_axis(word.letter) || is_absent(word.value)) continue;
     const auto axis = TRY(machine_axis(word.letter));
     const auto value = TRY(number(channel, word.value));
-    const double unit = machine::is_rotary(axis) ? 1 : channel.length_unit();
-    axes[machine::index(axis)] = Coordinate{value * unit, word.incremental};
+    const double unit = is_rotary(axis) ? 1 : channel.length_unit();
+    axes[index(axis)] = Coordinate{value * unit, word.incremental};
   }
   return axes;
 }

@@ -218,7 +218,7 @@ void update_preassigned(Channel& channel) {
   const bool is_inch = channel.calls.main_program().is_inch();
   const double unit = is_inch ? 25.4 : 1.0;
   q.set_q(108, state.tool_radius() / unit);
-  q.set_q(109, state.tool.axis ? static_cast<double>(machine::index(*state.tool.axis)) : -1);
+  q.set_q(109, state.tool.axis ? static_cast<double>(index(*state.tool.axis)) : -1);
   q.set_q(110, static_cast<int>(state.modes.spindle));
   q.set_q(111, state.modes.coolant ? 1 : 0);
   q.set_q(113, is_inch ? 1 : 0);
