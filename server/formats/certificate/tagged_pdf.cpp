@@ -117,10 +117,9 @@ void TaggedPdf::end_page() {
   const Page& page = pages_.back();
   const std::size_t content = reserve();
   put_stream(content, "", content_);
-  put(page.page,
-      fmt::format("<</Type/Page/Parent {} 0 R/MediaBox{}/Resources {} 0 R/Tabs/S/StructParents {}"
-                  "/Contents[{} 0 R {} 0 R]>>",
-                  kPages, box_, kResources, pages_.size() - 1, content, page.footer));
+  put(page.page, fmt::format("<</Type/Page/Parent {} 0 R/MediaBox{}/Resources {} 0 "
+                             "R/Tabs/S/StructParents {}/Contents[{} 0 R {} 0 R]>>",
+                             kPages, box_, kResources, pages_.size() - 1, content, page.footer));
   put(page.parents, "[" + parents_ + "]");
   content_.clear();
   parents_.clear();
@@ -181,10 +180,10 @@ std::string TaggedPdf::picture(const Picture& picture, float x, float y, float w
   picture_ = reserve();
   put_stream(
       picture_,
-      fmt::format(
-          "/Type/XObject/Subtype/Image/Width {0}/Height {1}/BitsPerComponent 8/ColorSpace/Device{2}"
-          "/DecodeParms<</Predictor 15/Colors {3}/Columns {0}>>",
-          picture.width, picture.height, picture.colours == 1 ? "Gray" : "RGB", picture.colours),
+      fmt::format("/Type/XObject/Subtype/Image/Width {0}/Height {1}/BitsPerComponent "
+                  "8/ColorSpace/Device{2}/DecodeParms<</Predictor 15/Colors {3}/Columns {0}>>",
+                  picture.width, picture.height, picture.colours == 1 ? "Gray" : "RGB",
+                  picture.colours),
       picture.packed, true);
   return fmt::format("q {:.2f} 0 0 {:.2f} {:.2f} {:.2f} cm /I Do Q\n", width, height, x, y);
 }
@@ -217,27 +216,24 @@ void TaggedPdf::put_font() {
   const std::string bytes = font_.file();
   put_stream(file, fmt::format("/Length1 {}", bytes.size()), bytes);
   put_stream(map, "", glyphs);
-  put_stream(meaning, "",
-             "/CIDInit /ProcSet findresource begin 12 dict begin begincmap /CIDSystemInfo "
-             "<</Registry (Adobe) /Ordering "
-             "(UCS) /Supplement 0>> def /CMapName /Adobe-Identity-UCS def /CMapType 2 def\n1 "
-             "begincodespacerange <0000> "
-             "<FFFF> endcodespacerange\n" +
-                 characters +
-                 "endbfchar\nendcmap CMapName currentdict /CMap defineresource pop end end\n");
+  put_stream(
+      meaning, "",
+      "/CIDInit /ProcSet findresource begin 12 dict begin begincmap /CIDSystemInfo <</Registry "
+      "(Adobe) /Ordering (UCS) /Supplement 0>> def /CMapName /Adobe-Identity-UCS def /CMapType 2 "
+      "def\n1 begincodespacerange <0000> <FFFF> endcodespacerange\n" +
+          characters +
+          "endbfchar\nendcmap CMapName currentdict /CMap defineresource pop end end\n");
   put(descriptor,
       fmt::format(
-          "<</Type/FontDescriptor/FontName/FITGAU+DejaVuSans/Flags 4/FontBBox[-1021 -463 1793 1232]"
-          "/ItalicAngle 0/Ascent 928/Descent -236/CapHeight 729/StemV 90/FontFile2 {} 0 R>>",
+          "<</Type/FontDescriptor/FontName/FITGAU+DejaVuSans/Flags 4/FontBBox[-1021 -463 1793 "
+          "1232]/ItalicAngle 0/Ascent 928/Descent -236/CapHeight 729/StemV 90/FontFile2 {} 0 R>>",
           file));
-  put(part,
-      fmt::format(
-          "<</Type/Font/Subtype/CIDFontType2/BaseFont/FITGAU+DejaVuSans/CIDSystemInfo<</"
-          "Registry(Adobe)"
-          "/Ordering(Identity)/Supplement 0>>/FontDescriptor {} 0 R/CIDToGIDMap {} 0 R/W[0[{}]]>>",
-          descriptor, map, widths));
-  put(kFont, fmt::format("<</Type/Font/Subtype/Type0/BaseFont/FITGAU+DejaVuSans/Encoding/Identity-H"
-                         "/DescendantFonts[{} 0 R]/ToUnicode {} 0 R>>",
+  put(part, fmt::format("<</Type/Font/Subtype/CIDFontType2/BaseFont/FITGAU+DejaVuSans/"
+                        "CIDSystemInfo<</Registry(Adobe)/Ordering(Identity)/Supplement "
+                        "0>>/FontDescriptor {} 0 R/CIDToGIDMap {} 0 R/W[0[{}]]>>",
+                        descriptor, map, widths));
+  put(kFont, fmt::format("<</Type/Font/Subtype/Type0/BaseFont/FITGAU+DejaVuSans/Encoding/"
+                         "Identity-H/DescendantFonts[{} 0 R]/ToUnicode {} 0 R>>",
                          part, meaning));
 }
 
@@ -255,10 +251,9 @@ std::string TaggedPdf::finish(const std::function<std::string(std::size_t, std::
   }
   put_font();
   put(kCatalog,
-      fmt::format(
-          "<</Type/Catalog/Pages {} 0 R/StructTreeRoot {} 0 R/Lang(en)/MarkInfo<</Marked true>>"
-          "/ViewerPreferences<</DisplayDocTitle true>>>>",
-          kPages, kTree));
+      fmt::format("<</Type/Catalog/Pages {} 0 R/StructTreeRoot {} 0 R/Lang(en)/MarkInfo<</Marked "
+                  "true>>/ViewerPreferences<</DisplayDocTitle true>>>>",
+                  kPages, kTree));
   put(kPages, fmt::format("<</Type/Pages/Count {}/Kids[{}]>>", pages_.size(), kids));
   put(kResources, fmt::format("<</Font<</F {} 0 R>>{}>>", kFont,
                               picture_ == 0 ? "" : fmt::format("/XObject<</I {} 0 R>>", picture_)));

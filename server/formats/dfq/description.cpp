@@ -8,28 +8,13 @@ namespace {
 
 Error wrong(std::string what) { return {kMalformed, std::move(what)}; }
 
-constexpr std::array<std::pair<std::string_view, LengthUnit>, 20> kUnits = {{
-    {"mm", LengthUnit::Millimetre},
-    {"millimeter", LengthUnit::Millimetre},
-    {"millimetre", LengthUnit::Millimetre},
-    {"\xC2\xB5m", LengthUnit::Micrometre},
-    {"\xCE\xBCm", LengthUnit::Micrometre},
-    {"\xC2\xB5", LengthUnit::Micrometre},
-    {"um", LengthUnit::Micrometre},
-    {"my", LengthUnit::Micrometre},
-    {"micrometer", LengthUnit::Micrometre},
-    {"micrometre", LengthUnit::Micrometre},
-    {"cm", LengthUnit::Centimetre},
-    {"m", LengthUnit::Metre},
-    {"meter", LengthUnit::Metre},
-    {"metre", LengthUnit::Metre},
-    {"in", LengthUnit::Inch},
-    {"in.", LengthUnit::Inch},
-    {"inch", LengthUnit::Inch},
-    {"inches", LengthUnit::Inch},
-    {"zoll", LengthUnit::Inch},
-    {"\"", LengthUnit::Inch},
-}};
+/// The names of each unit, in the order of LengthUnit.
+constexpr std::array<std::string_view, 9> kUnits[] = {
+    {"mm", "millimeter", "millimetre"},
+    {"\xC2\xB5m", "\xCE\xBCm", "\xC2\xB5", "um", "my", "micrometer", "micrometre"},
+    {"cm"},
+    {"m", "meter", "metre"},
+    {"in", "in.", "inch", "inches", "zoll", "\""}};
 
 /// Digits after the point of a value of one nanometre.
 constexpr int decimals_of(LengthUnit unit) {
@@ -274,10 +259,13 @@ std::string_view Description::part_text(const Characteristic& characteristic, in
 }
 
 std::optional<LengthUnit> length_unit(std::string_view name) {
-  for (const auto& [known, unit] : kUnits) {
-    if (ascii_iequals(known, name)) return unit;
-  }
-  return std::nullopt;
+  const auto* const found = std::ranges::find_if(kUnits, [name](const auto& names) {
+    return !name.empty() && std::ranges::any_of(names, [name](std::string_view known) {
+      return ascii_iequals(known, name);
+    });
+  });
+  if (found == std::end(kUnits)) return std::nullopt;
+  return static_cast<LengthUnit>(found - kUnits);
 }
 
 std::string_view user_text(const Description& description, const Characteristic& characteristic,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/clock.hpp"
 #include "formats/dfq/reader.hpp"
 #include "formats/sheet/time_zone.hpp"
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "formats/sheet/text_encoding.hpp"
 
 namespace fitgauge::aqdef {
@@ -75,6 +74,11 @@ std::string guid_of(std::string_view origin, std::int64_t number);
 
 /// An error of line `line`: "line 7 has …".
 Error at_line(std::uint32_t line, std::string_view what);
+template <class First, class... More>
+Error at_line(std::uint32_t line, fmt::format_string<First, More...> what, First&& first,
+              More&&... more) {
+  return at_line(line, fmt::format(what, std::forward<First>(first), std::forward<More>(more)...));
+}
 
 /// Reads the lines of an input in bounded memory. Not thread-safe.
 class Lines {

@@ -94,17 +94,16 @@ Result<bool> MeasurementCsv::is_measured(const ValueSet& set, const Value& value
     if (options_.leaves_out_others) return false;
     return at_line(
         value.line,
-        fmt::format(
-            "has attribute {}, so its value was not measured: leave_out stores the other values",
-            first_characters(attribute, 20)));
+
+        "has attribute {}, so its value was not measured: leave_out stores the other values",
+        first_characters(attribute, 20));
   }
   if (!trim(set.cell(value, 0)).empty()) return true;
   for (std::size_t place = 1; place < value.cells; ++place) {
     if (trim(set.cell(value, place)).empty()) continue;
-    return at_line(
-        value.line,
-        fmt::format("has no value of characteristic {}: write it, or the attribute 255 or 256",
-                    value.characteristic));
+    return at_line(value.line,
+                   "has no value of characteristic {}: write it, or the attribute 255 or 256",
+                   value.characteristic);
   }
   return false;
 }
@@ -186,8 +185,8 @@ Result<void> MeasurementCsv::append_value(const ValueSet& set_of, const Value& v
   const std::string_view text = trim(set_of.cell(value, 0));
   const auto measured = parse_length(text, prepared.unit);
   if (!measured) {
-    return at_line(value.line, fmt::format("has the value '{}', which is not a length",
-                                           first_characters(text, 40)));
+    return at_line(value.line, "has the value '{}', which is not a length",
+                   first_characters(text, 40));
   }
   row_[kMeasured] = texts_.emplace_back(format_mm(*measured));
   if (const auto taken = take_value_fields(set_of, value); !taken) {
@@ -224,15 +223,14 @@ Result<bool> MeasurementCsv::append(std::string& rows, std::vector<std::uint32_t
 Result<void> MeasurementCsv::check() const {
   TRY(reader_.check());
   if (!has_values_ && has_left_out_) {
-    return Error{
-        kMalformed,
-        "all values were left out: no characteristic of the file is a length with a nominal "
-        "size and limits"};
+    return Error{kMalformed,
+                 "all values were left out: no characteristic of the file is a length with a "
+                 "nominal size and limits"};
   }
   if (!has_values_) {
-    return Error{kMalformed,
-                 "the file has no measured value; a DFD is read together with its DFX, of the same "
-                 "name"};
+    return Error{
+        kMalformed,
+        "the file has no measured value; a DFD is read together with its DFX, of the same name"};
   }
   return {};
 }
@@ -295,9 +293,9 @@ Result<void> MeasurementCsv::prepare_size(const Characteristic& characteristic,
   const auto quantity = gauging::quantity_from_word(made.fields[kQuantity]);
   if (made.fields[kFeature].empty() && (!quantity || gauging::has_feature(*quantity))) {
     return at_line(characteristic.line,
-                   fmt::format("has limits of characteristic {} without hole or shaft: set "
-                               "feature, or write its class into K2103 and K2104",
-                               characteristic.index));
+                   "has limits of characteristic {} without hole or shaft: set feature, or write "
+                   "its class into K2103 and K2104",
+                   characteristic.index);
   }
   return {};
 }
@@ -309,9 +307,9 @@ Result<MeasurementCsv::Prepared> MeasurementCsv::prepare(
   if (const std::string reason = reason_against(characteristic); !reason.empty()) {
     if (!options_.leaves_out_others) {
       return at_line(characteristic.line,
-                     fmt::format("describes characteristic {}, which is not a measurement: {}; "
-                                 "leave_out stores the other characteristics",
-                                 characteristic.index, reason));
+                     "describes characteristic {}, which is not a measurement: {}; leave_out "
+                     "stores the other characteristics",
+                     characteristic.index, reason);
     }
     made.is_left_out = true;
     return made;
@@ -351,10 +349,9 @@ Result<const MeasurementCsv::Prepared*> MeasurementCsv::prepared(std::uint32_t i
     for (const std::string& text : made.fields) prepared_bytes_ += text.size();
     for (const CarriedField& field : made.carried) prepared_bytes_ += field.text.size();
     if (prepared_bytes_ > kMostBytes) {
-      return Error{kMalformed,
-                   fmt::format("the texts of the characteristics and parts have more than {} MiB: "
-                               "shorten them, or split the file",
-                               kMostBytes >> 20)};
+      return Error{kMalformed, fmt::format("the texts of the characteristics and parts have more "
+                                           "than {} MiB: shorten them, or split the file",
+                                           kMostBytes >> 20)};
     }
     prepared_[index] = std::move(made);
   }

@@ -87,9 +87,8 @@ Result<bool> Reader::read_set(const Lines::Line& first, ValueSet& set) {
     const auto field = parse_field_line(first.text);
     if (!field) return at_line(first.number, field.error().message);
     if (field->number != k::kValue && field->number != k::kSubgroupSize) {
-      return at_line(
-          first.number,
-          fmt::format("has K{:04} before any value: write it after its value", field->number));
+      return at_line(first.number, "has K{:04} before any value: write it after its value",
+                     field->number);
     }
     TRY(add_field(*field, first, set));
   }
@@ -125,8 +124,8 @@ Result<void> Reader::add_values(const Lines::Line& line, ValueSet& set) {
   TRY(check_end(line, nullptr));
   std::string_view rest = line.text;
   if (!begins_value(rest[0])) {
-    return at_line(line.number, fmt::format("begins with '{}', and is neither a field nor a value",
-                                            first_characters(rest, 20)));
+    return at_line(line.number, "begins with '{}', and is neither a field nor a value",
+                   first_characters(rest, 20));
   }
   // A separator may follow the last value.
   if (rest.back() == kValueSeparator) rest.remove_suffix(1);
@@ -141,9 +140,8 @@ Result<void> Reader::add_values(const Lines::Line& line, ValueSet& set) {
   *found.values++ = static_cast<std::uint32_t>(found.starts - starts) - 1;
   const auto values = static_cast<std::size_t>(found.values - ends);
   if (values > count) {
-    return at_line(
-        line.number,
-        fmt::format("has more values than the {} characteristics described above it", count));
+    return at_line(line.number, "has more values than the {} characteristics described above it",
+                   count);
   }
   Value* value = set.values.room_for(values);
   std::uint32_t first = 0;
@@ -166,9 +164,10 @@ Result<bool> Reader::add_field(const FieldLine& field, const Lines::Line& line, 
       set.values, [&](const Value& value) { return value.characteristic == field.index; });
   if (is_value) {
     if (field.index == 0) {
-      return at_line(line.number, fmt::format("has K{:04} for all characteristics: write the "
-                                              "number of its characteristic, such as K{:04}/1",
-                                              field.number, field.number));
+      return at_line(line.number,
+                     "has K{:04} for all characteristics: write the number of its characteristic, "
+                     "such as K{:04}/1",
+                     field.number, field.number);
     }
     if (of_field != set.values.end()) return false;
     Value& value = *set.values.room_for(1);
@@ -182,17 +181,15 @@ Result<bool> Reader::add_field(const FieldLine& field, const Lines::Line& line, 
     return true;
   }
   if (field.index != 0 && of_field == set.values.end()) {
-    return at_line(line.number,
-                   fmt::format("has K{:04} of characteristic {}, which has no value above it",
-                               field.number, field.index));
+    return at_line(line.number, "has K{:04} of characteristic {}, which has no value above it",
+                   field.number, field.index);
   }
   if (field.value_index != 0) {
     const std::uint32_t last =
         field.index == 0 || field.index >= counts_.size() ? 1 : counts_[field.index] + 1;
     if (field.index == 0 || field.value_index != last) {
-      return at_line(line.number,
-                     fmt::format("is for value {}: write it after this value, without the number",
-                                 field.value_index));
+      return at_line(line.number, "is for value {}: write it after this value, without the number",
+                     field.value_index);
     }
   }
   const std::size_t place = place_of(field.number);
@@ -213,10 +210,8 @@ Result<void> Reader::count_values(const ValueSet& set) {
   for (const Value& value : set.values) {
     Characteristic* const characteristic = description_.characteristic(value.characteristic);
     if (characteristic == nullptr) {
-      return at_line(value.line,
-                     fmt::format("has a value of characteristic {}, which no line above "
-                                 "describes",
-                                 value.characteristic));
+      return at_line(value.line, "has a value of characteristic {}, which no line above describes",
+                     value.characteristic);
     }
     characteristic->has_values = true;
     if (counts_.size() <= value.characteristic) counts_.resize(value.characteristic + 1);

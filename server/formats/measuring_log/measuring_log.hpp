@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/length.hpp"
-#include "base/result.hpp"
 #include "formats/sheet/time_zone.hpp"
 
 namespace fitgauge::log_reader {
@@ -62,35 +61,8 @@ Reading read_html_logs(std::string_view bytes);
 /// Reads HTML or text, by its content.
 Reading read_logs(std::string_view bytes);
 
-// The words of a log, in lower case.
-
-enum class Section : std::uint8_t { Head, Nominal, Limits, Actual, Deviations, Further };
-
-/// Returns the section that a title opens.
-std::optional<Section> section_of(std::string_view title);
-
-/// Returns the number of the cycle if a line begins a log.
+/// Returns the number of the cycle if a line, in lower case, begins a log.
 std::optional<int> cycle_of_title(std::string_view line);
-bool ends_log(std::string_view line);
-
-/// The subject of a label of a size, in all wordings of nominal, limits and actual value.
-enum class Quantity : std::uint8_t {
-  Size,
-  CentreMain,
-  CentreSecondary,
-  LengthMain,
-  LengthSecondary
-};
-Quantity quantity_of(std::string_view label);
-
-enum class Bound : std::uint8_t { Upper, Lower };
-std::optional<Bound> bound_of(std::string_view label);
-
-bool is_angle(std::string_view label);
-
-/// Returns the name in records for that quantity and cycle.
-std::string name_of(Quantity quantity, int cycle);
-Role role_of(Quantity quantity, int cycle);
 
 /// @param date `30-06-2005`, `30.06.2005`, `30/06/2005`. @param time `6:55:04`
 std::optional<sheet::WallTime> read_clock(std::string_view date, std::string_view time);

@@ -260,8 +260,8 @@ Result<Element> XmlReader::take() {
     const auto next = TRY(state_->event());
     State::Event& event = *next;
     if (event.at - begin > kLargestElement) {
-      return aqdef::at_line(
-          event.line, fmt::format("has an element of more than {} MiB", kLargestElement >> 20));
+      return aqdef::at_line(event.line, "has an element of more than {} MiB",
+                            kLargestElement >> 20);
     }
     if (event.kind == State::Kind::Begin) add(event);
     if (event.kind == State::Kind::Text) tree.text += event.text;

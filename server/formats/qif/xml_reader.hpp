@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "formats/sheet/text_encoding.hpp"
 
 namespace fitgauge::qif {

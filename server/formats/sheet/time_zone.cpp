@@ -62,22 +62,14 @@ class Bytes {
   bool has_failed_ = false;
 };
 
-struct Header {
-  std::int64_t utc_flags = 0;
-  std::int64_t standard_flags = 0;
-  std::int64_t leaps = 0;
-  std::int64_t times = 0;
-  std::int64_t types = 0;
-  std::int64_t letters = 0;
-};
+/// The counts of a header, in its order.
+enum Count { kUtcFlags, kStandardFlags, kLeaps, kTimes, kTypes, kLetters };
+using Header = std::array<std::int64_t, 6>;
 
 Header take_header(Bytes& bytes) {
   bytes.skip(20);  // magic, version, reserved
-  Header header;
-  for (std::int64_t Header::*count : {&Header::utc_flags, &Header::standard_flags, &Header::leaps,
-                                      &Header::times, &Header::types, &Header::letters}) {
-    header.*count = bytes.number(4);
-  }
+  Header header{};
+  for (std::int64_t& count : header) count = bytes.number(4);
   return header;
 }
 
@@ -179,27 +171,28 @@ Result<TimeZone> TimeZone::parse(std::string_view all) {
   // The first block is for old readers: 32-bit times.
   Bytes bytes(all);
   const Header old = take_header(bytes);
-  bytes.skip(old.times * 5 + old.types * 6 + old.letters + old.leaps * 8 + old.standard_flags +
-             old.utc_flags);
+  bytes.skip(old[kTimes] * 5 + old[kTypes] * 6 + old[kLetters] + old[kLeaps] * 8 +
+             old[kStandardFlags] + old[kUtcFlags]);
   const Header header = take_header(bytes);
-  if (bytes.has_failed() || header.types < 1 || header.types > 256 || header.times < 0 ||
-      header.times > 100'000) {
+  if (bytes.has_failed() || header[kTypes] < 1 || header[kTypes] > 256 || header[kTimes] < 0 ||
+      header[kTimes] > 100'000) {
     return broken;
   }
   TimeZone zone;
-  for (std::int64_t i = 0; i < header.times; ++i) zone.changes_.push_back({.at = bytes.number(8)});
+  for (std::int64_t i = 0; i < header[kTimes]; ++i)
+    zone.changes_.push_back({.at = bytes.number(8)});
   std::vector<std::int64_t> types;
-  for (std::int64_t i = 0; i < header.times; ++i) types.push_back(bytes.number(1) & 0xFF);
+  for (std::int64_t i = 0; i < header[kTimes]; ++i) types.push_back(bytes.number(1) & 0xFF);
   std::vector<std::int64_t> offsets;
-  for (std::int64_t i = 0; i < header.types; ++i) {
+  for (std::int64_t i = 0; i < header[kTypes]; ++i) {
     offsets.push_back(bytes.number(4));
     bytes.skip(2);
   }
-  bytes.skip(header.letters + header.leaps * 12 + header.standard_flags + header.utc_flags);
+  bytes.skip(header[kLetters] + header[kLeaps] * 12 + header[kStandardFlags] + header[kUtcFlags]);
   if (bytes.has_failed()) return broken;
   zone.first_offset_ = offsets.front();
   for (std::size_t i = 0; i < types.size(); ++i) {
-    if (types[i] >= header.types) return broken;
+    if (types[i] >= header[kTypes]) return broken;
     zone.changes_[i].offset = offsets[static_cast<std::size_t>(types[i])];
   }
   std::string_view footer = bytes.rest();
@@ -224,16 +217,12 @@ std::optional<TimeZone::Rule> TimeZone::parse_rule(std::string_view text) {
   }
   for (RuleDay* day : {&rule.begins, &rule.ends}) {
     if (!take(text, ',') || !take(text, 'M')) return std::nullopt;
-    std::array<int, 3> numbers{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (i > 0 && !take(text, '.')) return std::nullopt;
-      const auto number = take_digits(text, 1, 2);
-      if (!number) return std::nullopt;
-      numbers.at(i) = static_cast<int>(*number);
+    for (int* const number : {&day->month, &day->week, &day->weekday}) {
+      if (number != &day->month && !take(text, '.')) return std::nullopt;
+      const auto read = take_digits(text, 1, 2);
+      if (!read) return std::nullopt;
+      *number = static_cast<int>(*read);
     }
-    day->month = numbers[0];
-    day->week = numbers[1];
-    day->weekday = numbers[2];
     if (take(text, '/')) {
       const auto clock = take_clock(text);
       if (!clock) return std::nullopt;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/clock.hpp"
-#include "base/result.hpp"
 
 namespace fitgauge::sheet {
 

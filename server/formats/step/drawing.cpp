@@ -30,43 +30,43 @@ struct Entity {
 };
 
 /// The entities to search; all others are followed from them.
-constexpr std::array kEntities = {
-    Entity{"DIMENSIONAL_SIZE", Group::Size},
-    Entity{"DIMENSIONAL_SIZE_WITH_DATUM_FEATURE", Group::Size},
-    Entity{"DIMENSIONAL_SIZE_WITH_PATH", Group::Size},
-    Entity{"DIMENSIONAL_LOCATION", Group::Location},
-    Entity{"DIRECTED_DIMENSIONAL_LOCATION", Group::Location},
-    Entity{"DIMENSIONAL_LOCATION_WITH_PATH", Group::Location},
-    Entity{"ANGULAR_SIZE", Group::Angle},
-    Entity{"ANGULAR_LOCATION", Group::Angle},
-    Entity{"DIMENSIONAL_CHARACTERISTIC_REPRESENTATION", Group::Value},
-    Entity{"PLUS_MINUS_TOLERANCE", Group::Tolerance},
-    Entity{"GEOMETRIC_ITEM_SPECIFIC_USAGE", Group::Face},
-    Entity{"ITEM_IDENTIFIED_REPRESENTATION_USAGE", Group::Face},
-    Entity{"OPEN_SHELL", Group::Surface},
-    Entity{"SHAPE_ASPECT_RELATIONSHIP", Group::Part},
-    Entity{"SHAPE_ASPECT_DERIVING_RELATIONSHIP", Group::Part},
-    Entity{"DRAUGHTING_MODEL_ITEM_ASSOCIATION", Group::Callout},
-    Entity{"DRAUGHTING_MODEL_ITEM_ASSOCIATION_WITH_PLACEHOLDER", Group::Callout},
-    Entity{"PRODUCT", Group::Product},
-    Entity{"DRAUGHTING_CALLOUT", Group::Note},
-    Entity{"ANGULARITY_TOLERANCE"},
-    Entity{"CIRCULAR_RUNOUT_TOLERANCE"},
-    Entity{"COAXIALITY_TOLERANCE"},
-    Entity{"CONCENTRICITY_TOLERANCE"},
-    Entity{"CYLINDRICITY_TOLERANCE"},
-    Entity{"FLATNESS_TOLERANCE"},
-    Entity{"LINE_PROFILE_TOLERANCE"},
-    Entity{"PARALLELISM_TOLERANCE"},
-    Entity{"PERPENDICULARITY_TOLERANCE"},
-    Entity{"POSITION_TOLERANCE"},
-    Entity{"ROUNDNESS_TOLERANCE"},
-    Entity{"STRAIGHTNESS_TOLERANCE"},
-    Entity{"SURFACE_PROFILE_TOLERANCE"},
-    Entity{"SYMMETRY_TOLERANCE"},
-    Entity{"TOTAL_RUNOUT_TOLERANCE"},
-    Entity{"GEOMETRIC_TOLERANCE"},
-    Entity{"SURFACE_TEXTURE_REPRESENTATION"}};
+constexpr Entity kEntities[] = {
+    {"DIMENSIONAL_SIZE", Group::Size},
+    {"DIMENSIONAL_SIZE_WITH_DATUM_FEATURE", Group::Size},
+    {"DIMENSIONAL_SIZE_WITH_PATH", Group::Size},
+    {"DIMENSIONAL_LOCATION", Group::Location},
+    {"DIRECTED_DIMENSIONAL_LOCATION", Group::Location},
+    {"DIMENSIONAL_LOCATION_WITH_PATH", Group::Location},
+    {"ANGULAR_SIZE", Group::Angle},
+    {"ANGULAR_LOCATION", Group::Angle},
+    {"DIMENSIONAL_CHARACTERISTIC_REPRESENTATION", Group::Value},
+    {"PLUS_MINUS_TOLERANCE", Group::Tolerance},
+    {"GEOMETRIC_ITEM_SPECIFIC_USAGE", Group::Face},
+    {"ITEM_IDENTIFIED_REPRESENTATION_USAGE", Group::Face},
+    {"OPEN_SHELL", Group::Surface},
+    {"SHAPE_ASPECT_RELATIONSHIP", Group::Part},
+    {"SHAPE_ASPECT_DERIVING_RELATIONSHIP", Group::Part},
+    {"DRAUGHTING_MODEL_ITEM_ASSOCIATION", Group::Callout},
+    {"DRAUGHTING_MODEL_ITEM_ASSOCIATION_WITH_PLACEHOLDER", Group::Callout},
+    {"PRODUCT", Group::Product},
+    {"DRAUGHTING_CALLOUT", Group::Note},
+    {"ANGULARITY_TOLERANCE"},
+    {"CIRCULAR_RUNOUT_TOLERANCE"},
+    {"COAXIALITY_TOLERANCE"},
+    {"CONCENTRICITY_TOLERANCE"},
+    {"CYLINDRICITY_TOLERANCE"},
+    {"FLATNESS_TOLERANCE"},
+    {"LINE_PROFILE_TOLERANCE"},
+    {"PARALLELISM_TOLERANCE"},
+    {"PERPENDICULARITY_TOLERANCE"},
+    {"POSITION_TOLERANCE"},
+    {"ROUNDNESS_TOLERANCE"},
+    {"STRAIGHTNESS_TOLERANCE"},
+    {"SURFACE_PROFILE_TOLERANCE"},
+    {"SYMMETRY_TOLERANCE"},
+    {"TOTAL_RUNOUT_TOLERANCE"},
+    {"GEOMETRIC_TOLERANCE"},
+    {"SURFACE_TEXTURE_REPRESENTATION"}};
 
 /// `flatness tolerance`: an entity in words.
 std::string in_words(std::string_view entity) {
@@ -76,8 +76,8 @@ std::string in_words(std::string_view entity) {
 }
 
 constexpr auto kNames = [] {
-  std::array<std::string_view, kEntities.size()> names{};
-  for (std::size_t i = 0; i < names.size(); ++i) names.at(i) = kEntities.at(i).name;
+  std::array<std::string_view, std::size(kEntities)> names{};
+  for (std::size_t i = 0; i < names.size(); ++i) names.at(i) = kEntities[i].name;
   return names;
 }();
 
@@ -96,18 +96,11 @@ using Link = std::pair<std::uint32_t, std::uint32_t>;
 bool by_first(const Link& a, const Link& b) { return a.first < b.first; }
 
 /// The quantity of a DIMENSIONAL_SIZE, by a part of its name.
-constexpr std::array<std::pair<std::string_view, Quantity>, 10> kQuantities = {{
-    {"diameter", Quantity::Diameter},
-    {"radius", Quantity::Radius},
-    {"curve", Quantity::Distance},
-    {"depth", Quantity::Distance},
-    {"thickness", Quantity::Width},
-    {"width", Quantity::Width},
-    {"length", Quantity::Width},
-    {"height", Quantity::Width},
-    {"size", Quantity::Width},
-    {"linear", Quantity::Width},
-}};
+constexpr std::pair<std::string_view, Quantity> kQuantities[] = {
+    {"diameter", Quantity::Diameter}, {"radius", Quantity::Radius},   {"curve", Quantity::Distance},
+    {"depth", Quantity::Distance},    {"thickness", Quantity::Width}, {"width", Quantity::Width},
+    {"length", Quantity::Width},      {"height", Quantity::Width},    {"size", Quantity::Width},
+    {"linear", Quantity::Width}};
 
 /// Everything in the file about one dimension.
 struct Found {
@@ -166,9 +159,9 @@ class Walker {
  private:
   template <class Each>
   void each(std::initializer_list<Group> groups, const Each& what) {
-    for (std::size_t i = 0; i < kEntities.size(); ++i) {
-      if (std::ranges::find(groups, kEntities.at(i).group) == groups.end()) continue;
-      for (const std::uint32_t id : file_.of_name(i)) what(id, kEntities.at(i));
+    for (std::size_t i = 0; i < std::size(kEntities); ++i) {
+      if (std::ranges::find(groups, kEntities[i].group) == groups.end()) continue;
+      for (const std::uint32_t id : file_.of_name(i)) what(id, kEntities[i]);
     }
   }
   std::vector<Link>& links(Group group) { return links_[static_cast<std::size_t>(group)]; }
@@ -447,7 +440,7 @@ class Walker {
   Drawing& to_;
   Values values_;
   std::size_t link_count_ = 0;
-  std::array<std::vector<Link>, kEntities.size()> links_;
+  std::array<std::vector<Link>, std::size(kEntities)> links_;
   std::map<std::string, int> names_;
   std::set<std::uint32_t> seen_;
   std::vector<Face> solids_;  ///< cylinders that sizes and tolerances hang on

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/json/body_forms.hpp"
-#include "base/json/json_value.hpp"
 #include "formats/step/part21.hpp"
 #include "metrology/gauging/gauge.hpp"
 #include "tables/iso286/tolerance_tables.hpp"

@@ -118,7 +118,7 @@ class Part21Scanner {
 
  private:
   bool expect(std::string_view word) {
-    if (lexer_.keyword() != word) return lexer_.fail(fmt::format("{} expected", word));
+    if (lexer_.keyword() != word) return lexer_.fail("{} expected", word);
     return lexer_.take(';') || lexer_.fail("; expected");
   }
   bool record(std::string_view& name) {
@@ -198,8 +198,7 @@ class Part21Scanner {
       return lexer_.fail("an instance must be #number=NAME(…);");
     }
     if (file_.instances_.size() == most_) {
-      return lexer_.fail(
-          fmt::format("more than {} instances: use fitgauge plan from for larger files", most_));
+      return lexer_.fail("more than {} instances: use fitgauge plan from for larger files", most_);
     }
     const std::size_t at = lexer_.at();
     file_.instances_.push_back({name.id, static_cast<std::uint32_t>(at)});

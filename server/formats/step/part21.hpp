@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/mapped_file.hpp"
-#include "base/result.hpp"
 
 // A STEP file as text: ISO 10303-21, editions 2 and 3, read strictly and in one pass. It needs
 // eight bytes of memory for an instance, and reads an instance again from the text at each request.

@@ -80,7 +80,7 @@ bool Lexer::text() {
 bool Lexer::between(char delimiter, bool (*is_allowed)(char), std::string_view what) {
   do ++at_;
   while (is_allowed(peek()));
-  if (peek() != delimiter) return fail(fmt::format("{} has no closing {}", what, delimiter));
+  if (peek() != delimiter) return fail("{} has no closing {}", what, delimiter);
   ++at_;
   return true;
 }

@@ -45,6 +45,11 @@ class Lexer {
   }
 
   bool fail(std::string_view message);
+  template <class First, class... More>
+  bool fail(fmt::format_string<First, More...> message, First&& first, More&&... more) {
+    return fail(std::string_view(
+        fmt::format(message, std::forward<First>(first), std::forward<More>(more)...)));
+  }
   const std::optional<Error>& error() const { return error_; }
 
  private:

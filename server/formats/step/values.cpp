@@ -1,21 +1,14 @@
 #include "formats/step/values.hpp"
 
-#include "base/text.hpp"
 #include "record/verdict_codec.hpp"
 
 namespace fitgauge::step {
 namespace {
 
 /// Millimetres of a metre with a prefix of SI_UNIT.
-constexpr std::array<std::pair<std::string_view, double>, 7> kMetres = {{
-    {"", 1e3},
-    {".MILLI.", 1},
-    {".CENTI.", 10},
-    {".DECI.", 100},
-    {".MICRO.", 1e-3},
-    {".NANO.", 1e-6},
-    {".KILO.", 1e6},
-}};
+constexpr std::pair<std::string_view, double> kMetres[] = {
+    {"", 1e3},         {".MILLI.", 1},   {".CENTI.", 10}, {".DECI.", 100},
+    {".MICRO.", 1e-3}, {".NANO.", 1e-6}, {".KILO.", 1e6}};
 
 using Vector = std::array<double, 3>;
 using iso286::Feature;
@@ -104,10 +97,9 @@ double Values::millimetres(std::uint32_t id, std::uint32_t from, int deep) {
     const auto all = file_.parameters(each.list);
     if (each.name == "SI_UNIT" && all.size() >= 2 && all.back().text == ".METRE.") {
       const Parameter& prefix = all[all.size() - 2];
-      const auto found = std::ranges::find_if(kMetres, [&](const auto& p) {
-        return p.first == (prefix.is(Kind::Word) ? prefix.text : std::string_view());
-      });
-      if (found != kMetres.end()) factor = found->second;
+      for (const auto& [name, millimetres] : kMetres) {
+        if (name == (prefix.is(Kind::Word) ? prefix.text : "")) factor = millimetres;
+      }
     } else if (each.name == "CONVERSION_BASED_UNIT" && !all.empty() &&
                all.back().is(Kind::Reference) && deep > 0) {
       const Value found = read(all.back().id, id, deep - 1);
