@@ -8,7 +8,7 @@
 #include "cli/program_help.hpp"
 #include "http/engine/request_head.hpp"
 #include "nc/iso/parser.hpp"
-#include "nc/klartext/source_text.hpp"
+#include "nc/klartext/syntax.hpp"
 #include "nc/program/parameter.hpp"
 #include "nc/program/program_cache.hpp"
 

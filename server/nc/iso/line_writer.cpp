@@ -1,4 +1,3 @@
-#include "base/text.hpp"
 #include "nc/iso/translation.hpp"
 
 namespace fitgauge::iso {

@@ -1,8 +1,7 @@
 #include "nc/iso/parser.hpp"
 
-#include "base/text.hpp"
 #include "nc/iso/translation.hpp"
-#include "nc/klartext/source_text.hpp"
+#include "nc/klartext/syntax.hpp"
 
 namespace fitgauge::iso {
 namespace {

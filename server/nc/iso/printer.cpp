@@ -1,9 +1,7 @@
 #include "nc/iso/printer.hpp"
 
-#include "base/text.hpp"
 #include "nc/iso/codes.hpp"
 #include "nc/iso/parser.hpp"
-#include "nc/klartext/lexer.hpp"
 #include "nc/klartext/operator_names.hpp"
 #include "nc/klartext/printer.hpp"
 

@@ -1,10 +1,9 @@
 #include "nc/iso/translation.hpp"
 
-#include "base/text.hpp"
 #include "nc/iso/line.hpp"
 #include "nc/klartext/parser.hpp"
 #include "nc/klartext/parser_rules.hpp"
-#include "nc/klartext/source_text.hpp"
+#include "nc/klartext/syntax.hpp"
 
 namespace fitgauge::iso {
 namespace {
@@ -239,8 +238,7 @@ class Translator {
   void function() {
     const unsigned number = in_.digits(kLargestFunction, "the number of the function");
     in_.accept(':');
-    in_.skip_blanks();
-    const char* begin = in_.at();
+    const char* begin = in_.skip_blanks();
     BlockWords words;
     if (in_.at_parameter()) words.text = read_value(in_);
     in_.skip_blanks();

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "nc/iso/words.hpp"
-#include "nc/klartext/diagnostic.hpp"
+#include "nc/iso/codes.hpp"
 
 namespace fitgauge::iso {
 

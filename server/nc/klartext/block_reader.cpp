@@ -1,6 +1,6 @@
 #include "nc/klartext/block_reader.hpp"
 
-#include "nc/klartext/source_text.hpp"
+#include "nc/klartext/syntax.hpp"
 
 namespace fitgauge::klartext {
 namespace {
@@ -56,12 +56,11 @@ Expr BlockReader::add_node(Operator op, std::span<const Expr> operands) {
       height = std::max<int>(height, parts_.nodes[index->value].height);
     }
   }
-  if (height >= kDeepestExpression) {
-    fail(DiagnosticCode::ExpressionTooDeep, here(),
-         fmt::format("the formula has more than {} steps in a chain: split it into several blocks",
-                     kDeepestExpression));
-    return Absent{};
-  }
+  if (height >= kDeepestExpression)
+    return fail(
+        DiagnosticCode::ExpressionTooDeep, here(),
+        fmt::format("the formula has more than {} steps in a chain: split it into several blocks",
+                    kDeepestExpression));
   const auto index = static_cast<std::uint32_t>(parts_.nodes.size());
   const Slice<Expr> slice = add_operands(operands);
   parts_.nodes.push_back({op, static_cast<std::uint16_t>(height + 1), slice});

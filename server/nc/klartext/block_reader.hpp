@@ -2,7 +2,6 @@
 
 #include "nc/klartext/lexer.hpp"
 #include "nc/klartext/syntax.hpp"
-#include "nc/klartext/word_names.hpp"
 
 namespace fitgauge::klartext {
 

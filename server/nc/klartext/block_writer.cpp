@@ -1,6 +1,5 @@
 #include "nc/klartext/block_writer.hpp"
 
-#include "base/text.hpp"
 #include "nc/klartext/operator_names.hpp"
 
 namespace fitgauge::klartext {
@@ -179,9 +178,9 @@ void BlockWriter::node(NodeIndex index) {
       return;
     default: break;
   }
-  for (const FunctionName& function : kFunctions) {
-    if (function.op != node.op) continue;
-    write(function.name).write(" ");
+  if (const std::size_t function = place_of(node.op, Operator::Sq);
+      function < std::size(kFunctions)) {
+    write(kFunctions[function]).write(" ");
     return expression(operands[0], Level::Signed);
   }
   string_function(node);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "nc/klartext/syntax.hpp"
-#include "nc/klartext/word_names.hpp"
 
 namespace fitgauge::klartext {
 

@@ -1,7 +1,6 @@
 #include "nc/klartext/diagnostic.hpp"
 
-#include "base/text.hpp"
-#include "nc/klartext/source_text.hpp"
+#include "nc/klartext/syntax.hpp"
 
 namespace fitgauge::klartext {
 namespace {

@@ -1,7 +1,5 @@
 #include "nc/klartext/lexer.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::klartext {
 namespace {
 
@@ -46,7 +44,7 @@ SpellingHint similar_word(std::string_view expected, std::string_view found) {
   for (const char* at = expected.data(); at != end;) {
     const char* const word = std::find_if(at, end, is_ascii_letter);
     at = std::find_if_not(word, end, is_ascii_letter);
-    const std::string_view keyword(word, static_cast<std::size_t>(at - word));
+    const std::string_view keyword(word, at);
     if (std::all_of(word, at, is_capital)) hint.consider(keyword);
   }
   return hint;
@@ -60,42 +58,35 @@ void Lexer::open(std::size_t begin, std::size_t end) {
   failure_.reset();
 }
 
-void Lexer::fail(DiagnosticCode code, Slice<char> place, std::string message, std::string instead) {
-  if (!failure_)
-    failure_ = Failure{Failure::Kind::Faulty, code, place, std::move(message), std::move(instead)};
+Dropped Lexer::fail(DiagnosticCode code, Slice<char> place, std::string message,
+                    std::string instead) {
+  if (!failure_) failure_ = Failure{code, place, std::move(message), std::move(instead)};
   at_ = end_;
+  return {};
 }
 
-void Lexer::fail_expected(std::string_view what) {
+Dropped Lexer::fail_expected(std::string_view what) {
   if (at_end()) {
-    fail(DiagnosticCode::SyntaxError, here(),
-         fmt::format("expected {} before the end of the block", what));
-    return;
+    return fail(DiagnosticCode::SyntaxError, here(),
+                fmt::format("expected {} before the end of the block", what));
   }
   const char* word_end = std::find_if_not(at_, end_, continues_word);
   if (word_end == at_) ++word_end;
   while (word_end != end_ && (static_cast<unsigned char>(*word_end) & 0xC0) == 0x80) ++word_end;
   const bool control_character = static_cast<unsigned char>(*at_) < 0x20;
   if (control_character) {
-    fail(DiagnosticCode::ControlCharacter, here(),
-         fmt::format("expected {}, found the control character {}", what, int{*at_}));
-    return;
+    return fail(DiagnosticCode::ControlCharacter, here(),
+                fmt::format("expected {}, found the control character {}", what, int{*at_}));
   }
-  const std::string_view found(at_, static_cast<std::size_t>(word_end - at_));
+  const std::string_view found(at_, word_end);
   const SpellingHint hint = similar_word(what, found);
-  fail(DiagnosticCode::SyntaxError, place(at_, word_end),
-       fmt::format("expected {}, found '{}'{}", what, excerpt(found), hint.text()), hint.word());
+  return fail(DiagnosticCode::SyntaxError, place(at_, word_end),
+              fmt::format("expected {}, found '{}'{}", what, excerpt(found), hint.text()),
+              hint.word());
 }
 
-void Lexer::refuse(const char* begin, std::string_view feature) {
-  if (!failure_) {
-    failure_ = Failure{Failure::Kind::Unsupported,
-                       DiagnosticCode::FeatureUnsupported,
-                       place(begin, at_),
-                       std::string(feature),
-                       {}};
-  }
-  at_ = end_;
+Dropped Lexer::refuse(const char* begin, std::string_view feature) {
+  return fail(DiagnosticCode::FeatureUnsupported, since(begin), std::string(feature));
 }
 
 void Lexer::skip_wraps() {
@@ -165,19 +156,15 @@ void Lexer::expect_prefix(std::string_view prefix) {
 }
 
 std::string_view Lexer::letters() {
-  skip_blanks();
-  const char* end = at_;
+  const char* end = skip_blanks();
   while (end != end_ && is_ascii_letter(*end) && !(end != at_ && is_parameter(end))) ++end;
-  return {at_, static_cast<std::size_t>(end - at_)};
+  return std::string_view(at_, end);
 }
 
 double Lexer::number() {
   skip_blanks();
   double value = 0;
-  if (!at_number()) {
-    fail_expected("a number");
-    return 0;
-  }
+  if (!at_number()) return fail_expected("a number");
   const char* begin = at_;
   const auto skip_digits = [this] { at_ = std::find_if_not(at_, end_, is_digit); };
   skip_digits();
@@ -189,36 +176,30 @@ double Lexer::number() {
   std::replace(text.begin(), text.end(), ',', '.');
   const auto error = std::from_chars(text.data(), text.data() + text.size(), value).ec;
   if (error != std::errc() || value >= kLargestNumber) {
-    fail(DiagnosticCode::NumberOutOfRange, place(begin, at_),
+    fail(DiagnosticCode::NumberOutOfRange, since(begin),
          fmt::format("{} is too large: use at most nine digits before the point", excerpt(text)));
   }
   return value;
 }
 
 std::uint32_t Lexer::digits(std::uint32_t largest, std::string_view what) {
-  skip_blanks();
-  const char* begin = at_;
+  const char* begin = skip_blanks();
   std::uint64_t value = 0;
   for (; is_digit(*at_); ++at_) {
     value = std::min<std::uint64_t>(value * 10 + static_cast<unsigned>(*at_ - '0'), UINT32_MAX);
   }
   if (at_ == begin) {
     fail_expected(what);
-  } else if (value > largest) {
-    fail(DiagnosticCode::NumberOutOfRange, place(begin, at_),
-         fmt::format("{} {} is out of range: 0 to {}", what,
-                     excerpt({begin, static_cast<std::size_t>(at_ - begin)}), largest));
-    return 0;
-  }
+  } else if (value > largest)
+    return fail(DiagnosticCode::NumberOutOfRange, since(begin),
+                fmt::format("{} {} is out of range: 0 to {}", what,
+                            excerpt(std::string_view(begin, at_)), largest));
   return static_cast<std::uint32_t>(value);
 }
 
 QRef Lexer::parameter() {
   skip_blanks();
-  if (!at_parameter()) {
-    fail_expected("a Q parameter");
-    return {};
-  }
+  if (!at_parameter()) return fail_expected("a Q parameter");
   const char* begin = at_++;
   QSpace space = QSpace::Q;
   if (!is_digit(*at_)) {
@@ -230,8 +211,8 @@ QRef Lexer::parameter() {
     number = std::min(number * 10 + static_cast<unsigned>(*at_ - '0'), 100'000U);
   }
   if (number >= parameter_count(space)) {
-    const std::string_view name(begin, static_cast<std::size_t>(at_ - begin));
-    fail(DiagnosticCode::ParameterOutOfRange, place(begin, at_),
+    const std::string_view name(begin, at_);
+    fail(DiagnosticCode::ParameterOutOfRange, since(begin),
          fmt::format("{} does not exist: the numbers go from 0 to {}", excerpt(name),
                      parameter_count(space) - 1));
     return {};
@@ -241,30 +222,24 @@ QRef Lexer::parameter() {
 
 std::string_view Lexer::quoted() {
   skip_blanks();
-  if (peek() != '"') {
-    fail_expected("a text in double quotes");
-    return {};
-  }
+  if (peek() != '"') return fail_expected("a text in double quotes");
   const char* begin = at_ + 1;
   const char* close = std::find_if(begin, end_, [](char c) { return c == '"' || c == '\n'; });
-  if (close == end_ || *close != '"') {
-    fail(DiagnosticCode::StringUnterminated, place(at_, close),
-         "the text has no closing double quote");
-    return {};
-  }
+  if (close == end_ || *close != '"')
+    return fail(DiagnosticCode::StringUnterminated, place(at_, close),
+                "the text has no closing double quote");
   at_ = close + 1;
-  return {begin, static_cast<std::size_t>(close - begin)};
+  return std::string_view(begin, close);
 }
 
 std::string_view Lexer::rest() { return rest_until(';'); }
 
 std::string_view Lexer::rest_until(char stop) {
-  skip_blanks();
-  const char* begin = at_;
+  const char* begin = skip_blanks();
   at_ = std::find_if(at_, end_, [stop](char c) { return c == ';' || c == stop; });
   const char* last = at_;
   while (last != begin && (is_blank(last[-1]) || last[-1] == '~' || last[-1] == '\n')) --last;
-  return {begin, static_cast<std::size_t>(last - begin)};
+  return std::string_view(begin, last);
 }
 
 std::string_view without_wrap(std::string_view text) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "nc/klartext/diagnostic.hpp"
-#include "nc/klartext/expression.hpp"
 
 namespace fitgauge::klartext {
 
@@ -56,17 +55,21 @@ inline const char* scan_plain_number(const char* at, const char* end, double& va
   return at + fraction.count;
 }
 
-/// The reason why a block cannot be read.
+/// The reason why a block cannot be read. FeatureUnsupported: it is Klartext of real controls that
+/// this one cannot run; any other code is an error.
 struct Failure {
-  enum class Kind : std::uint8_t {
-    Faulty,      ///< not Klartext: an error
-    Unsupported  ///< Klartext of real controls that this one cannot run
-  };
-  Kind kind = Kind::Faulty;
   DiagnosticCode code = DiagnosticCode::SyntaxError;
   Slice<char> place;
-  std::string message;    ///< of Unsupported: the feature's name
+  std::string message;    ///< of FeatureUnsupported: the feature's name
   std::string instead{};  ///< the text that is right in this place, if known
+};
+
+/// The value of what cannot be read: empty, and dropped with the block.
+struct Dropped {
+  template <class T>
+  operator T() const {  // NOLINT: of any type
+    return {};
+  }
 };
 
 /// Reads the characters of one block at a time. Refers to the source, which must end with a NUL
@@ -85,18 +88,20 @@ class Lexer {
   void extend(std::size_t end) { end_ = source_.data() + end; }
 
   const std::optional<Failure>& failure() const { return failure_; }
-  void fail(DiagnosticCode code, Slice<char> place, std::string message, std::string instead = {});
+  Dropped fail(DiagnosticCode code, Slice<char> place, std::string message,
+               std::string instead = {});
   /// Fails at the next character: "expected <what>, found 'x'".
-  void fail_expected(std::string_view what);
+  Dropped fail_expected(std::string_view what);
   /// The block uses a feature that only real controls have, named by the code since `begin`.
-  void refuse(const char* begin, std::string_view feature);
+  Dropped refuse(const char* begin, std::string_view feature);
 
-  /// Passes blanks and wraps (`~` at the end of a physical line).
-  void skip_blanks() {
+  /// Passes blanks and wraps (`~` at the end of a physical line). @returns the place behind them.
+  const char* skip_blanks() {
     const char* at = at_;
     while (is_blank(*at)) ++at;
     at_ = at;
     if (*at == '~') skip_wraps();
+    return at_;
   }
   /// Returns true at the end of the block or a comment.
   bool at_end() {
@@ -110,6 +115,7 @@ class Lexer {
   void move_to(const char* place) { at_ = place; }
   char peek(std::size_t ahead = 0) const { return at_ + ahead < end_ ? at_[ahead] : '\0'; }
   Slice<char> place(const char* begin, const char* end) const;
+  Slice<char> since(const char* begin) const { return place(begin, at_); }
   Slice<char> here() const { return place(at_, at_ < end_ ? at_ + 1 : at_); }
 
   /// Each of these passes blanks first and stays in place when it does not match.

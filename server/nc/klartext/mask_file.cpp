@@ -1,9 +1,7 @@
 #include "nc/klartext/mask_file.hpp"
 
-#include "base/text.hpp"
-#include "nc/klartext/diagnostic.hpp"
-#include "nc/klartext/lexer.hpp"
-#include "nc/klartext/source_text.hpp"
+#include "nc/klartext/operator_names.hpp"
+#include "nc/klartext/syntax.hpp"
 
 namespace fitgauge::klartext {
 namespace {
@@ -11,23 +9,16 @@ namespace {
 constexpr int kLargestWidth = 255;
 constexpr int kMostDecimals = 16;
 
-struct KeywordName {
-  std::string_view name;
-  MaskKeyword keyword;
-  bool text = false;
-};
-
-constexpr KeywordName kKeywords[] = {
-    {"CALL_PATH", MaskKeyword::CallPath, true},
-    {"HOUR", MaskKeyword::Hour},
-    {"MIN", MaskKeyword::Minute},
-    {"SEC", MaskKeyword::Second},
-    {"DAY", MaskKeyword::Day},
-    {"MONTH", MaskKeyword::Month},
-    {"STR_MONTH", MaskKeyword::MonthName, true},
-    {"YEAR2", MaskKeyword::Year2},
-    {"YEAR4", MaskKeyword::Year4},
-};
+// The words of each enumeration, in its order.
+constexpr std::string_view kKeywords[] = {"CALL_PATH", "HOUR",      "MIN",   "SEC",  "DAY",
+                                          "MONTH",     "STR_MONTH", "YEAR2", "YEAR4"};
+constexpr std::string_view kControls[] = {"M_CLOSE",    "M_APPEND",     "",  // M_APPEND_MAX20
+                                          "M_TRUNCATE", "M_EMPTY_HIDE", "M_EMPTY_SHOW"};
+constexpr std::string_view kLanguages[] = {
+    "L_ENGLISH",   "L_GERMAN",   "L_CZECH",   "L_FRENCH",       "L_ITALIAN",   "L_SPANISH",
+    "L_PORTUGUE",  "L_SWEDISH",  "L_DANISH",  "L_FINNISH",      "L_DUTCH",     "L_POLISH",
+    "L_HUNGARIA",  "L_RUSSIAN",  "L_CHINESE", "L_CHINESE_TRAD", "L_SLOVENIAN", "L_KOREAN",
+    "L_NORWEGIAN", "L_ROMANIAN", "L_SLOVAK",  "L_TURKISH",      "L_ALL"};
 
 /// A value and whether it is a text.
 struct Argument {
@@ -159,17 +150,14 @@ class FormatReader {
 };
 
 Argument parse_argument(Lexer& in) {
-  in.skip_blanks();
-  const char* begin = in.at();
-  for (const KeywordName& row : kKeywords) {
-    if (in.accept_word(row.name)) return {row.keyword, row.text, in.place(begin, in.at())};
+  const char* begin = in.skip_blanks();
+  if (const auto keyword = accept_name<MaskKeyword>(in, kKeywords)) {
+    const bool is_text = *keyword == MaskKeyword::CallPath || *keyword == MaskKeyword::MonthName;
+    return {*keyword, is_text, in.since(begin)};
   }
-  if (!in.at_parameter()) {
-    in.fail_expected("a Q parameter or a keyword such as HOUR");
-    return {};
-  }
+  if (!in.at_parameter()) return in.fail_expected("a Q parameter or a keyword such as HOUR");
   const QRef parameter = in.parameter();
-  return {parameter, parameter.is_string(), in.place(begin, in.at())};
+  return {parameter, parameter.is_string(), in.since(begin)};
 }
 
 bool shows_text(MaskConversion conversion) {
@@ -211,36 +199,14 @@ MaskFormat parse_mask_format(Lexer& in, std::optional<Slice<char>>& unused) {
 
 constexpr std::uint32_t kMostKilobytes = 1'000'000;
 
-struct ControlName {
-  std::string_view name;
-  MaskControlKind kind;
-};
-
-constexpr ControlName kControls[] = {
-    {"M_CLOSE", MaskControlKind::Close},          {"M_APPEND", MaskControlKind::Append},
-    {"M_TRUNCATE", MaskControlKind::Truncate},    {"M_EMPTY_HIDE", MaskControlKind::EmptyHide},
-    {"M_EMPTY_SHOW", MaskControlKind::EmptyShow},
-};
-
-/// In the order of MaskLanguage.
-constexpr std::string_view kLanguages[] = {
-    "L_ENGLISH",   "L_GERMAN",   "L_CZECH",   "L_FRENCH",       "L_ITALIAN",   "L_SPANISH",
-    "L_PORTUGUE",  "L_SWEDISH",  "L_DANISH",  "L_FINNISH",      "L_DUTCH",     "L_POLISH",
-    "L_HUNGARIA",  "L_RUSSIAN",  "L_CHINESE", "L_CHINESE_TRAD", "L_SLOVENIAN", "L_KOREAN",
-    "L_NORWEGIAN", "L_ROMANIAN", "L_SLOVAK",  "L_TURKISH",      "L_ALL"};
-
 std::variant<MaskFormat, MaskControl, MaskLanguage> parse_keyword(Lexer& in) {
-  for (const ControlName& row : kControls) {
-    if (in.accept_word(row.name)) return MaskControl{.kind = row.kind};
-  }
+  if (const auto kind = accept_name<MaskControlKind>(in, kControls)) return MaskControl{*kind};
   if (in.accept_prefix("M_APPEND_MAX")) {
     const std::uint32_t kilobytes = in.digits(kMostKilobytes, "the number of kilobytes");
     return MaskControl{.kind = MaskControlKind::AppendMax,
                        .kilobytes = static_cast<int>(kilobytes)};
   }
-  for (std::size_t i = 0; i < std::size(kLanguages); ++i) {
-    if (in.accept_word(kLanguages[i])) return static_cast<MaskLanguage>(i);
-  }
+  if (const auto language = accept_name<MaskLanguage>(in, kLanguages)) return *language;
   const char* begin = in.at();
   const std::string_view word = in.rest();
   in.fail(DiagnosticCode::MaskKeywordUnknown, in.place(begin, begin + word.size()),

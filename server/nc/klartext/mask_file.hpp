@@ -1,7 +1,6 @@
 #pragma once
 
 #include "nc/klartext/diagnostic.hpp"
-#include "nc/klartext/expression.hpp"
 
 namespace fitgauge::klartext {
 

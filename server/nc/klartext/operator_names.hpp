@@ -1,6 +1,5 @@
 #pragma once
 
-#include "nc/klartext/expression.hpp"
 #include "nc/klartext/lexer.hpp"
 #include "nc/klartext/statement.hpp"
 
@@ -21,32 +20,30 @@ inline constexpr std::string_view kOperatingModes[] = {"MILL", "TURN", "GRIND"};
 inline constexpr std::string_view kPatternElements[] = {"POS",   "ROW",  "PAT",
                                                         "FRAME", "CIRC", "PITCHCIRC"};
 
-/// The value of an enumeration whose name is the next word.
+/// The value of an enumeration whose name is the next word; the names begin with `first`.
 template <class Enumeration, std::size_t N>
-std::optional<Enumeration> accept_name(Lexer& in, const std::string_view (&names)[N]) {
+std::optional<Enumeration> accept_name(Lexer& in, const std::string_view (&names)[N],
+                                       Enumeration first = {}) {
   for (std::size_t i = 0; i < N; ++i) {
-    if (!names[i].empty() && in.accept_word(names[i])) return static_cast<Enumeration>(i);
+    if (!names[i].empty() && in.accept_word(names[i]))
+      return static_cast<Enumeration>(static_cast<std::size_t>(first) + i);
   }
   return std::nullopt;
+}
+
+/// The place of an operator in a list of names that begins with `first`.
+constexpr std::size_t place_of(Operator op, Operator first) {
+  return static_cast<std::size_t>(op) - static_cast<std::size_t>(first);
 }
 
 /// The longest text of a QS parameter.
 inline constexpr std::size_t kLongestString = 255;
 
-struct FunctionName {
-  Operator op;
-  std::string_view name;
-};
-
-/// Functions of one number in a formula.
-inline constexpr FunctionName kFunctions[] = {
-    {Operator::Sq, "SQ"},     {Operator::Sqrt, "SQRT"}, {Operator::Sin, "SIN"},
-    {Operator::Cos, "COS"},   {Operator::Tan, "TAN"},   {Operator::Asin, "ASIN"},
-    {Operator::Acos, "ACOS"}, {Operator::Atan, "ATAN"}, {Operator::Ln, "LN"},
-    {Operator::Log, "LOG"},   {Operator::Exp, "EXP"},   {Operator::Neg, "NEG"},
-    {Operator::Abs, "ABS"},   {Operator::Int, "INT"},   {Operator::Frac, "FRAC"},
-    {Operator::Sgn, "SGN"},
-};
+/// Functions of one number in a formula, from Operator::Sq on.
+inline constexpr std::string_view kFunctions[] = {"SQ",   "SQRT", "SIN",  "COS", "TAN", "ASIN",
+                                                  "ACOS", "ATAN", "LN",   "LOG", "EXP", "NEG",
+                                                  "ABS",  "INT",  "FRAC", "SGN"};
+static_assert(std::size(kFunctions) == place_of(Operator::Pi, Operator::Sq));
 
 /// An argument of a function of texts: `SRC_QS10`, `BEG2`.
 struct StringArgument {
@@ -83,11 +80,9 @@ inline constexpr StringFunction kStringFunctions[] = {
     {Operator::SystemString, "SYSSTR", 2, {{.prefix = "ID"}, {.prefix = "NR"}}},
 };
 
-/// Comparisons of FN 9 to 12, in this order.
-inline constexpr FunctionName kComparisons[] = {{Operator::Equal, "EQU"},
-                                                {Operator::NotEqual, "NE"},
-                                                {Operator::Greater, "GT"},
-                                                {Operator::Less, "LT"}};
+/// Comparisons of FN 9 to 12, from Operator::Equal on.
+inline constexpr std::string_view kComparisons[] = {"EQU", "NE", "GT", "LT"};
+inline constexpr unsigned kFirstComparison = 9;
 
 /// FN 1 to 8 and 13: the function and the words between or before its operands.
 struct ArithmeticFn {

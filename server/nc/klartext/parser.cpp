@@ -1,10 +1,7 @@
 #include "nc/klartext/parser.hpp"
 
-#include "base/text.hpp"
-#include "nc/klartext/block_reader.hpp"
-#include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/parser_rules.hpp"
-#include "nc/klartext/source_text.hpp"
+#include "nc/klartext/syntax.hpp"
 
 namespace fitgauge::klartext {
 namespace {
@@ -92,8 +89,7 @@ bool Parser::at_q_form_cycle() {
   const char* begin = in_.at();
   const bool cycle = (in_.accept_word("CYCL") && in_.accept_joined("DEF")) ||
                      (in_.accept_word("TCH") && in_.accept_joined("PROBE"));
-  in_.skip_blanks();
-  const char* number = in_.at();
+  const char* number = in_.skip_blanks();
   const char* behind = std::find_if_not(number, in_.end(), is_digit);
   const bool has_number = behind != number;
   in_.move_to(behind);
@@ -110,8 +106,8 @@ Text Parser::parse_comment() {
 void Parser::report_failure(Block& block, const char* body) {
   const Failure failure = *in_.failure();
   in_.drop_block();
-  const std::string raw = free_text({body, static_cast<std::size_t>(in_.end() - body)});
-  if (failure.kind == Failure::Kind::Faulty) {
+  const std::string raw = free_text(std::string_view(body, in_.end()));
+  if (failure.code != DiagnosticCode::FeatureUnsupported) {
     std::string message = failure.message;
     if (!begun_) message += "; a program begins with BEGIN PGM name MM, or INCH";
     diagnostics_.add(Severity::Error, failure.code, failure.place, std::move(message), block.number,

@@ -1,9 +1,82 @@
-#include "base/text.hpp"
-#include "nc/klartext/forms.hpp"
 #include "nc/klartext/parser.hpp"
+#include "nc/klartext/parser_rules.hpp"
+#include "nc/klartext/parser_words.hpp"
 
 namespace fitgauge::klartext {
 namespace {
+
+template <class Frame>
+Statement parse_frame(BlockReader& in) {
+  in.expect_word("PGM");
+  return read_form<Frame>(in);
+}
+
+constexpr LetterSet kCylinder(Letter::R, Letter::D, Letter::L, Letter::Dist, Letter::Ri,
+                              Letter::Di);
+
+Slice<Word> parse_rotation(BlockReader& in) {
+  const std::uint32_t first = in.word_count();
+  if (in.accept_word("DIM_R")) {
+    in.add_word({.letter = Letter::DimR});
+  } else if (in.accept_word("DIM_D")) {
+    in.add_word({.letter = Letter::DimD});
+  }
+  in.expect_prefix("LBL");
+  const Label label = parse_label(in);
+  const auto value_of = [](const auto& value) -> Expr {
+    if constexpr (std::is_integral_v<std::decay_t<decltype(value)>>) {
+      return static_cast<double>(value);
+    } else {
+      return value;
+    }
+  };
+  in.add_word({.value = std::visit(value_of, label), .letter = Letter::Label});
+  return in.words_since(first);
+}
+
+BlankForm parse_file_blank(BlockReader& in) {
+  BlankForm form{.kind = BlankKind::File};
+  form.file = parse_string(in);
+  const std::uint32_t first = in.word_count();
+  if (in.accept_word("TARGET")) in.add_word({.value = parse_string(in), .letter = Letter::Target});
+  form.words = in.words_since(first);
+  return form;
+}
+
+Statement parse_blank_form(BlockReader& in) {
+  in.expect_word("FORM");
+  if (in.accept_word("FILE")) return parse_file_blank(in);
+  BlankForm form;
+  if (in.accept_word("0.2")) {
+    form.kind = BlankKind::Maximum;
+    form.words = parse_words(in, kAxes);
+    return form;
+  }
+  if (in.accept_word("CYLINDER")) {
+    form.kind = BlankKind::Cylinder;
+  } else if (in.accept_word("ROTATION")) {
+    form.kind = BlankKind::Rotation;
+  } else {
+    in.expect_word("0.1");
+  }
+  form.tool_axis = parse_axis_alone(in);
+  if (!form.tool_axis) in.fail_expected("the tool axis");
+  form.words = form.kind == BlankKind::Rotation   ? parse_rotation(in)
+               : form.kind == BlankKind::Cylinder ? parse_words(in, kCylinder)
+                                                  : parse_words(in, kAxes);
+  return form;
+}
+
+Statement parse_structure(BlockReader& in) {
+  const char* begin = in.at();
+  in.skip_blanks();
+  const auto indent = std::max<std::ptrdiff_t>(in.at() - begin, 1);
+  if (!in.accept('-')) return Structure{in.add_text(free_text(in.rest())), 0};
+  // `* - `, `*   - `, `*     - `: two more blanks for each level.
+  constexpr std::ptrdiff_t kDeepest = 100;
+  const auto level = static_cast<std::uint8_t>(std::min((indent - 1) / 2, kDeepest));
+  return Structure{in.add_text(free_text(in.rest())), level};
+}
 
 struct Keyword {
   std::string_view name;
@@ -46,40 +119,25 @@ constexpr Keyword kBlockKeywords[] = {
     {"DECLARE", parse_declare},
     {"GLOBAL", parse_global},
     {"BLK", parse_blank_form},
-    {"BEGIN", parse_begin},
-    {"END", parse_end},
+    {"BEGIN", parse_frame<BeginProgram>},
+    {"END", parse_frame<EndProgram>},
 };
 
-/// The first words of blocks that real controls run and this one does not.
-struct Feature {
-  std::string_view name;
-  std::string_view feature;
-};
+// The features that real controls run and this one does not, by the first words of their blocks.
+constexpr std::string_view kContourWords[] = {"FL", "FLT", "FC", "FCT", "FPOL", "FSELECT"};
+constexpr std::string_view kFeatures[] = {"SQL",        "CONTOUR DEF", "PRESET",
+                                          "TABDATA",    "POLARKIN",    "SECTION MONITORING",
+                                          "MONITORING", "OPEN",        "WMAT"};
 
-constexpr Feature kFeatures[] = {
-    {"FL", "FK contour programming"},
-    {"FLT", "FK contour programming"},
-    {"FC", "FK contour programming"},
-    {"FCT", "FK contour programming"},
-    {"FPOL", "FK contour programming"},
-    {"FSELECT", "FK contour programming"},
-    {"SQL", "SQL"},
-    {"CONTOUR", "CONTOUR DEF"},
-    {"PRESET", "PRESET"},
-    {"TABDATA", "TABDATA"},
-    {"POLARKIN", "POLARKIN"},
-    {"SECTION", "SECTION MONITORING"},
-    {"MONITORING", "MONITORING"},
-    {"OPEN", "OPEN"},
-    {"WMAT", "WMAT"},
-};
+std::string_view first_word(std::string_view feature) {
+  return feature.substr(0, feature.find(' '));
+}
 
 Statement parse_error_block(BlockReader& in) {
   in.expect('=');
-  in.skip_blanks();
-  const char* begin = in.at();
+  const char* begin = in.skip_blanks();
   in.move_to(in.end());
-  const std::string_view raw(begin, static_cast<std::size_t>(in.end() - begin));
+  const std::string_view raw(begin, in.end());
   return ErrorBlock{in.add_text(free_text(raw))};
 }
 
@@ -120,24 +178,19 @@ SpellingHint similar_keyword(std::string_view name, std::string_view next) {
 
 }  // namespace
 
-Statement expected(BlockReader& in, std::string_view what) {
-  in.fail_expected(what);
-  return Empty{};
-}
-
 Statement refuse_word(BlockReader& in, std::string_view first) {
   const std::string_view word = in.letters();
-  if (word.empty()) return expected(in, fmt::format("a word behind {}", first));
+  if (word.empty()) return in.fail_expected(fmt::format("a word behind {}", first));
   const char* begin = in.at();
   in.move_to(begin + word.size());
-  in.refuse(begin, fmt::format("{} {}", first, excerpt(ascii_upper(word))));
-  return Empty{};
+  return in.refuse(begin, fmt::format("{} {}", first, excerpt(ascii_upper(word))));
 }
 
 std::vector<std::string_view> block_keywords() {
   std::vector<std::string_view> words{"ERROR"};
   for (const Keyword& keyword : kBlockKeywords) words.push_back(keyword.name);
-  for (const Feature& feature : kFeatures) words.push_back(feature.name);
+  words.insert(words.end(), std::begin(kContourWords), std::end(kContourWords));
+  for (const std::string_view feature : kFeatures) words.push_back(first_word(feature));
   return words;
 }
 
@@ -154,25 +207,38 @@ Statement parse_statement(BlockReader& in) {
     if (ascii_iequals(keyword.name, name)) return keyword.parse(in);
   }
   if (ascii_iequals(name, "ERROR")) return parse_error_block(in);
-  for (const Feature& feature : kFeatures) {
-    if (ascii_iequals(feature.name, name)) {
-      in.refuse(begin, feature.feature);
-      return Empty{};
-    }
+  for (const std::string_view word : kContourWords) {
+    if (ascii_iequals(word, name)) return in.refuse(begin, "FK contour programming");
+  }
+  for (const std::string_view feature : kFeatures) {
+    if (ascii_iequals(first_word(feature), name)) return in.refuse(begin, feature);
   }
   in.move_to(begin);
   if (at_paraxial_block(name)) return parse_motion(in, Path::Paraxial);
   if (in.accept('*')) return parse_structure(in);
-  if (name.empty()) {
-    in.fail_expected("a block");
-  } else {
-    in.move_to(begin + name.size());
-    in.skip_blanks();
-    const SpellingHint hint = similar_keyword(name, in.letters());
-    in.fail(DiagnosticCode::BlockUnknown, in.place(begin, begin + name.size()),
-            fmt::format("no block begins with '{}'{}", excerpt(name), hint.text()), hint.word());
+  if (name.empty()) return in.fail_expected("a block");
+  in.move_to(begin + name.size());
+  in.skip_blanks();
+  const SpellingHint hint = similar_keyword(name, in.letters());
+  return in.fail(DiagnosticCode::BlockUnknown, in.place(begin, begin + name.size()),
+                 fmt::format("no block begins with '{}'{}", excerpt(name), hint.text()),
+                 hint.word());
+}
+
+void parse_frame(BlockReader& in, Text& name, Unit& unit_of) {
+  const char* begin = in.at();
+  const std::string text = free_text(in.rest());
+  const std::string_view rest = trim(text);
+  const std::size_t blank = rest.find_last_of(" \t");
+  const std::size_t unit_at = blank == std::string_view::npos ? 0 : blank + 1;
+  const std::string_view unit = rest.substr(unit_at);
+  const bool inch = ascii_iequals(unit, "INCH");
+  if (!inch && !ascii_iequals(unit, "MM")) {
+    in.fail(DiagnosticCode::SyntaxError, in.since(begin),
+            "expected the name of the program and its unit, MM or INCH");
   }
-  return Empty{};
+  name = in.add_text(trim(rest.substr(0, unit_at)));
+  unit_of = inch ? Unit::Inch : Unit::Millimetre;
 }
 
 }  // namespace fitgauge::klartext

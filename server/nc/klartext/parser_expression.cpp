@@ -32,7 +32,7 @@ Expr negated(BlockReader& in, const Expr& operand) {
 
 void require(BlockReader& in, const Expr& operand, bool string, const char* begin) {
   if (in.failure() || in.is_string(operand) == string) return;
-  in.fail(DiagnosticCode::ParameterType, in.place(begin, in.at()),
+  in.fail(DiagnosticCode::ParameterType, in.since(begin),
           string ? "a text is needed here: a QS parameter, a text in double quotes or TOCHAR"
                  : "a number is needed here: TONUMB makes one of a text");
 }
@@ -40,18 +40,14 @@ void require(BlockReader& in, const Expr& operand, bool string, const char* begi
 /// The result of `read`, which must be a number or, for `string`, a text.
 template <class Read>
 Expr parse_typed(BlockReader& in, bool string, Read read) {
-  in.skip_blanks();
-  const char* begin = in.at();
+  const char* begin = in.skip_blanks();
   const Expr operand = read(in);
   require(in, operand, string, begin);
   return operand;
 }
 
 Expr parse_alone(BlockReader& in) {
-  if (in.at_end()) {
-    in.fail_expected("a value");
-    return Absent{};
-  }
+  if (in.at_end()) return in.fail_expected("a value");
   if (in.at_number()) return in.number();
   if (in.at_parameter()) return in.parameter();
   if (in.peek() == '"') return in.quoted_text(kLongestString, "the text");
@@ -65,19 +61,15 @@ Expr parse_alone(BlockReader& in) {
   if (in.accept_word("PI")) return in.add_node(Operator::Pi, {});
   Expr function;
   if (parse_string_function(in, function)) return function;
-  for (const FunctionName& row : kFunctions) {
-    if (!in.accept_word(row.name)) continue;
+  if (const auto op = accept_name(in, kFunctions, Operator::Sq)) {
     in.enter();
     const Expr argument = parse_typed(in, false, parse_signed);
     in.leave();
-    return in.add_node(row.op, {argument});
+    return in.add_node(*op, {argument});
   }
   const char* begin = in.at();
   for (const std::string_view feature : {"CFGREAD", "TABDATA", "SQL"}) {
-    if (in.accept_word(feature)) {
-      in.refuse(begin, feature);
-      return Absent{};
-    }
+    if (in.accept_word(feature)) return in.refuse(begin, feature);
   }
   in.fail_expected("a number, a parameter, a function or '('");
   return Absent{};
@@ -90,8 +82,7 @@ Expr parse_signed(BlockReader& in) {
 }
 
 Expr parse_power(BlockReader& in) {
-  in.skip_blanks();
-  const char* begin = in.at();
+  const char* begin = in.skip_blanks();
   const Expr base = parse_signed(in);
   if (!in.accept('^')) return base;
   require(in, base, false, begin);
@@ -105,8 +96,7 @@ Expr parse_power(BlockReader& in) {
 template <class Next>
 Expr parse_chain(BlockReader& in, std::initializer_list<std::pair<char, Operator>> operators,
                  Next next) {
-  in.skip_blanks();
-  const char* begin = in.at();
+  const char* begin = in.skip_blanks();
   Expr left = next(in);
   for (bool more = true; more && !in.failure();) {
     more = false;
@@ -144,8 +134,7 @@ bool parse_string_function(BlockReader& in, Expr& value) {
 }
 
 Expr parse_formula(BlockReader& in) {
-  in.skip_blanks();
-  const char* begin = in.at();
+  const char* begin = in.skip_blanks();
   Expr left = parse_sum(in);
   while (in.accept_word("||")) {
     require(in, left, true, begin);
@@ -155,8 +144,7 @@ Expr parse_formula(BlockReader& in) {
 }
 
 Expr parse_value(BlockReader& in) {
-  in.skip_blanks();
-  const char* begin = in.at();
+  const char* begin = in.skip_blanks();
   const bool minus = in.peek() == '-';
   const bool has_sign = minus || in.peek() == '+';
   if (has_sign) {
@@ -167,10 +155,7 @@ Expr parse_value(BlockReader& in) {
     const double number = in.number();
     return minus ? -number : number;
   }
-  if (!in.at_parameter()) {
-    in.fail_expected("a number or a Q parameter");
-    return Absent{};
-  }
+  if (!in.at_parameter()) return in.fail_expected("a number or a Q parameter");
   const QRef parameter = in.parameter();
   if (has_sign) require(in, parameter, false, begin);
   return minus ? negated(in, parameter) : Expr(parameter);

@@ -1,4 +1,3 @@
-#include "nc/klartext/forms.hpp"
 #include "nc/klartext/operator_names.hpp"
 #include "nc/klartext/parser_rules.hpp"
 
@@ -7,11 +6,10 @@ namespace {
 
 Statement parse_formula_of(BlockReader& in, QRef target, AssignmentForm form) {
   in.expect('=');
-  in.skip_blanks();
-  const char* begin = in.at();
+  const char* begin = in.skip_blanks();
   const Expr value = parse_formula(in);
   if (!in.failure() && in.is_string(value) != target.is_string()) {
-    in.fail(DiagnosticCode::ParameterType, in.place(begin, in.at()),
+    in.fail(DiagnosticCode::ParameterType, in.since(begin),
             target.is_string() ? "a QS parameter must have a text: TOCHAR converts a number"
                                : "this parameter takes a number: TONUMB makes one of a text");
   }
@@ -71,25 +69,24 @@ Expr parse_definedness(BlockReader& in, const Expr& operand) {
 }
 
 Statement parse_conditional_jump(BlockReader& in, unsigned fn) {
-  constexpr unsigned kFirstComparison = 9;
-  const FunctionName& comparison = kComparisons[fn - kFirstComparison];
+  const auto place = fn - kFirstComparison;
+  const auto op = static_cast<Operator>(static_cast<unsigned>(Operator::Equal) + place);
   in.expect_word("IF");
-  in.skip_blanks();
-  const char* begin = in.at();
+  const char* begin = in.skip_blanks();
   const Expr left = parse_comparable(in);
   Expr condition;
   if (fn == kFirstComparison && in.accept_word("IS")) {
     condition = parse_definedness(in, left);
   } else {
-    in.expect_word(comparison.name);
+    in.expect_word(kComparisons[place]);
     const Expr right = parse_comparable(in);
     const bool texts = in.is_string(left);
-    const bool ordered = comparison.op == Operator::Greater || comparison.op == Operator::Less;
+    const bool ordered = op == Operator::Greater || op == Operator::Less;
     if (!in.failure() && (texts != in.is_string(right) || (texts && ordered))) {
-      in.fail(DiagnosticCode::ParameterType, in.place(begin, in.at()),
+      in.fail(DiagnosticCode::ParameterType, in.since(begin),
               "both sides must be numbers, or both texts with EQU or NE");
     }
-    condition = in.add_node(comparison.op, {left, right});
+    condition = in.add_node(op, {left, right});
   }
   in.expect_word("GOTO");
   in.expect_prefix("LBL");
@@ -106,6 +103,43 @@ Statement parse_system_read(BlockReader& in) {
                     .value = parse_system_address(in, Operator::SystemRead)};
 }
 
+constexpr std::uint32_t kLargestLabel = 65534;
+constexpr std::size_t kLongestLabelName = 32;
+
+constexpr std::string_view kParameterMark = ":'";
+
+/// Reads `QSn` and the characters behind it that must follow; the lexer is moved there.
+Expr parse_embedded_parameter(BlockReader& in, const char* at, std::string_view close) {
+  in.move_to(at);
+  const char* begin = in.at();
+  const QRef parameter = in.parameter();
+  if (!in.failure() && !parameter.is_string()) {
+    in.fail(DiagnosticCode::ParameterType, in.since(begin),
+            "a file name must come from a QS parameter");
+  }
+  for (const char c : close) in.expect(c);
+  return parameter;
+}
+
+/// The pieces of a bare path between `at` and `end`, joined.
+Expr parse_path_pieces(BlockReader& in, const char* at, const char* end) {
+  Expr path;
+  const auto join = [&](const Expr& piece) {
+    path = is_absent(path) ? piece : in.add_node(Operator::Concat, {path, piece});
+  };
+  while (at != end && !in.failure()) {
+    const std::string_view rest(at, end);
+    const std::size_t mark = std::min(rest.find(kParameterMark), rest.size());
+    if (mark > 0) join(in.add_text(unwrapped(rest.substr(0, mark))));
+    at += mark;
+    if (at == end) break;
+    join(parse_embedded_parameter(in, at + kParameterMark.size(), "'"));
+    at = in.at();
+  }
+  if (!in.failure()) in.move_to(end);
+  return path;
+}
+
 }  // namespace
 
 Statement parse_assignment(BlockReader& in) {
@@ -115,22 +149,19 @@ Statement parse_assignment(BlockReader& in) {
 
 Statement parse_declare(BlockReader& in) {
   if (!in.accept_word("STRING")) return refuse_word(in, "DECLARE");
-  in.skip_blanks();
-  const char* begin = in.at();
+  const char* begin = in.skip_blanks();
   const QRef target = in.parameter();
   if (!in.failure() && !target.is_string()) {
-    in.fail(DiagnosticCode::ParameterType, in.place(begin, in.at()),
-            "DECLARE STRING needs a QS parameter");
+    in.fail(DiagnosticCode::ParameterType, in.since(begin), "DECLARE STRING needs a QS parameter");
   }
   return parse_formula_of(in, target, AssignmentForm::DeclareString);
 }
 
 QRef parse_target(BlockReader& in) {
-  in.skip_blanks();
-  const char* begin = in.at();
+  const char* begin = in.skip_blanks();
   const QRef target = in.parameter();
   if (!in.failure() && target.is_string()) {
-    in.fail(DiagnosticCode::ParameterType, in.place(begin, in.at()),
+    in.fail(DiagnosticCode::ParameterType, in.since(begin),
             "this function gives a number: name a Q, QL or QR parameter");
   }
   return target;
@@ -160,8 +191,7 @@ Expr parse_cell(BlockReader& in) {
 }
 
 Statement parse_fn(BlockReader& in) {
-  in.skip_blanks();
-  const char* begin = in.at();
+  const char* begin = in.skip_blanks();
   const std::uint32_t fn = in.digits(kLargestFn, "the number of the function");
   in.expect(':');
   if (const ArithmeticFn* function = find_arithmetic(fn)) return parse_arithmetic(in, *function);
@@ -186,8 +216,77 @@ Statement parse_fn(BlockReader& in) {
     case 26: return read_form<TableOpen>(in);
     case 27: return read_form<TableWrite>(in);
     case 28: return read_form<TableRead>(in);
-    default: in.refuse(begin, fmt::format("FN {}", fn)); return Empty{};
+    default: return in.refuse(begin, fmt::format("FN {}", fn));
   }
+}
+
+Expr parse_path(BlockReader& in, char stop) {
+  in.skip_blanks();
+  if (in.peek() == '"') return in.quoted_text(kLongestString, "the file name");
+  const std::string_view bare = in.rest_until(stop);
+  if (bare.empty()) return in.fail_expected("a file name");
+  const bool invalid = std::any_of(bare.begin(), bare.end(), [](char c) {
+    return c == '"' || (static_cast<unsigned char>(c) < 0x20 && c != '\n');
+  });
+  if (invalid || bare.size() > kLongestString)
+    return in.fail(DiagnosticCode::SyntaxError, in.place(bare.data(), bare.data() + bare.size()),
+                   "the file name is too long or has a character that is not allowed");
+  const bool is_parameter = ascii_iequals(bare.substr(0, 2), "QS") && bare.size() > 2 &&
+                            std::all_of(bare.begin() + 2, bare.end(), is_digit);
+  if (is_parameter) return parse_embedded_parameter(in, bare.data(), "");
+  return parse_path_pieces(in, bare.data(), bare.data() + bare.size());
+}
+
+Label parse_label(BlockReader& in) {
+  in.skip_blanks();
+  if (in.at_number()) return in.digits(kLargestLabel, "the label");
+  if (in.at_parameter()) return in.parameter();
+  if (in.peek() != '"')
+    return in.fail_expected("a label: a number, a name in double quotes or a parameter");
+  const char* begin = in.at();
+  const Text name = in.quoted_text(kLongestLabelName, "the name of the label");
+  if (name.empty()) {
+    in.fail(DiagnosticCode::LabelMalformed, in.since(begin), "the name of the label is empty");
+  }
+  return name;
+}
+
+Expr parse_repeat(BlockReader& in) {
+  const Expr repeat = parse_number(in);
+  if (!in.accept('/')) return repeat;
+  in.skip_blanks();
+  if (in.at_parameter()) {
+    in.parameter();
+  } else {
+    in.digits(kLargestLabel, "the count after '/'");
+  }
+  return repeat;
+}
+
+Statement parse_label_definition(BlockReader& in) {
+  const char* begin = in.skip_blanks();
+  const Label label = parse_label(in);
+  if (std::holds_alternative<QRef>(label)) {
+    in.fail(DiagnosticCode::LabelMalformed, in.since(begin),
+            "a label is defined by a number or a name, not by a parameter");
+  }
+  return LabelDefinition{label};
+}
+
+Statement parse_call(BlockReader& in) {
+  if (in.accept_prefix("LBL")) return read_form<LabelCall>(in);
+  if (in.accept_word("PGM")) return read_form<CallProgram>(in);
+  if (in.accept_word("SELECTED")) {
+    if (in.accept_word("PGM")) return CallSelectedProgram{};
+    return refuse_word(in, "CALL SELECTED");
+  }
+  return refuse_word(in, "CALL");
+}
+
+Statement parse_select(BlockReader& in) {
+  if (in.accept_word("PGM")) return read_form<SelectProgram>(in);
+  if (in.accept_word("TABLE")) return read_form<SelectTable>(in);
+  return refuse_word(in, "SEL");
 }
 
 }  // namespace fitgauge::klartext

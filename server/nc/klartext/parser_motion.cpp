@@ -1,4 +1,3 @@
-#include "base/text.hpp"
 #include "nc/klartext/operator_names.hpp"
 #include "nc/klartext/parser_rules.hpp"
 #include "nc/klartext/parser_words.hpp"
@@ -70,8 +69,8 @@ Statement parse_second_word(BlockReader& in, std::string_view first) {
       return parse_motion(in, static_cast<Path>(i));
     }
   }
-  return expected(
-      in, first == "DEP" ? "LT, LN, CT, LCT or PLCT" : "LT, LN, CT, LCT, PLT, PLN, PCT or PLCT");
+  return in.fail_expected(first == "DEP" ? "LT, LN, CT, LCT or PLCT"
+                                         : "LT, LN, CT, LCT, PLT, PLN, PCT or PLCT");
 }
 
 constexpr std::uint32_t kMostElements = 99;
@@ -107,44 +106,6 @@ void parse_element(BlockReader& in) {
   WordReader words(in, kElementWords[kind], LetterSet(), kPoint);
   while (!in.at_end() && in.peek() != ')') words.read();
   in.expect(')');
-}
-
-constexpr LetterSet kToolWords = kFeeds | LetterSet(Letter::S, Letter::Dl, Letter::Dr, Letter::Dr2);
-constexpr LetterSet kDefinitionWords(Letter::L, Letter::R);
-
-/// `5`, `5.1`, `Q5`, `"NAME"`, `QS1`; Absent when none of them is next.
-Expr parse_tool_name(BlockReader& in) {
-  in.skip_blanks();
-  if (in.peek() == '"') return in.quoted_text(kLongestString, "the name of the tool");
-  if (in.at_number()) return in.number();
-  if (in.at_parameter()) return in.parameter();
-  return Absent{};
-}
-
-/// Reads a letter of an axis that only a blank or the end follows.
-std::optional<Axis> parse_axis_alone(BlockReader& in) {
-  const std::string_view name = in.letters();
-  if (name.size() != 1) return std::nullopt;
-  const std::optional<Letter> letter = find_letter(name);
-  if (!letter || !is_axis(*letter)) return std::nullopt;
-  in.move_to(in.at() + 1);
-  return axis_of(*letter);
-}
-
-Statement parse_tool_call(BlockReader& in) {
-  ToolCall call;
-  call.tool = parse_tool_name(in);
-  call.axis = parse_axis_alone(in);
-  call.words = parse_words(in, kToolWords);
-  return call;
-}
-
-Statement parse_tool_definition(BlockReader& in) {
-  ToolDefinition definition;
-  definition.tool = parse_tool_name(in);
-  if (is_absent(definition.tool)) in.fail_expected("the number or name of a tool");
-  definition.words = parse_words(in, kDefinitionWords);
-  return definition;
 }
 
 }  // namespace
@@ -203,9 +164,26 @@ Statement parse_pattern(BlockReader& in) {
 }
 
 Statement parse_tool(BlockReader& in) {
-  if (in.accept_joined("CALL")) return parse_tool_call(in);
-  if (in.accept_joined("DEF")) return parse_tool_definition(in);
-  return expected(in, "CALL or DEF");
+  if (in.accept_joined("CALL")) return read_form<ToolCall>(in);
+  if (in.accept_joined("DEF")) return read_form<ToolDefinition>(in);
+  return in.fail_expected("CALL or DEF");
+}
+
+Expr parse_tool_name(BlockReader& in) {
+  in.skip_blanks();
+  if (in.peek() == '"') return in.quoted_text(kLongestString, "the name of the tool");
+  if (in.at_number()) return in.number();
+  if (in.at_parameter()) return in.parameter();
+  return Absent{};
+}
+
+std::optional<Axis> parse_axis_alone(BlockReader& in) {
+  const std::string_view name = in.letters();
+  if (name.size() != 1) return std::nullopt;
+  const std::optional<Letter> letter = find_letter(name);
+  if (!letter || !is_axis(*letter)) return std::nullopt;
+  in.move_to(in.at() + 1);
+  return axis_of(*letter);
 }
 
 }  // namespace fitgauge::klartext

@@ -1,6 +1,5 @@
-#include "base/text.hpp"
-#include "nc/klartext/forms.hpp"
 #include "nc/klartext/operator_names.hpp"
+#include "nc/klartext/parser_rules.hpp"
 
 namespace fitgauge::klartext {
 namespace {
@@ -96,10 +95,9 @@ Statement parse_trans_words(BlockReader& in, Transformation kind, LetterSet word
 }
 
 Statement parse_mode(BlockReader& in) {
-  in.skip_blanks();
-  const char* begin = in.at();
+  const char* begin = in.skip_blanks();
   const auto found = accept_name<OperatingMode>(in, kOperatingModes);
-  if (!found) return expected(in, "MILL, TURN or GRIND");
+  if (!found) return in.fail_expected("MILL, TURN or GRIND");
   if (*found != OperatingMode::Mill) {
     in.refuse(begin,
               fmt::format("FUNCTION MODE {}", kOperatingModes[static_cast<std::size_t>(*found)]));
@@ -120,8 +118,7 @@ constexpr struct {
                     {"REFPNT", {"TIP-TIP", "TIP-CENTER", "CENTER-CENTER"}}};
 
 std::string next_word(BlockReader& in) {
-  in.skip_blanks();
-  const char* begin = in.at();
+  const char* begin = in.skip_blanks();
   in.move_to(std::find_if(begin, in.end(), [](char c) { return is_blank(c) || c == ';'; }));
   return ascii_upper(std::string_view(begin, static_cast<std::size_t>(in.at() - begin)));
 }
@@ -147,10 +144,9 @@ Statement parse_tcpm(BlockReader& in) {
       written += ' ' + value;
     }
     if (!is_known) {
-      in.fail(DiagnosticCode::SyntaxError, in.place(begin, in.at()),
+      in.fail(DiagnosticCode::SyntaxError, in.since(begin),
               "FUNCTION TCPM takes, each once: F TCP or CONT, AXIS POS or SPAT, PATHCTRL AXIS or "
-              "VECTOR, REFPNT TIP-TIP, "
-              "TIP-CENTER or CENTER-CENTER, and F with a number");
+              "VECTOR, REFPNT TIP-TIP, TIP-CENTER or CENTER-CENTER, and F with a number");
     }
     options += (options.empty() ? "" : " ") + written;
   }
@@ -184,12 +180,12 @@ Statement parse_trans(BlockReader& in) {
   if (in.accept_word("SCALE")) {
     return parse_trans_words(in, Transformation::Scale, LetterSet(Letter::Scl));
   }
-  return expected(in, "DATUM, MIRROR, ROTATION or SCALE");
+  return in.fail_expected("DATUM, MIRROR, ROTATION or SCALE");
 }
 
 Statement parse_plane(BlockReader& in) {
   if (const auto kind = accept_name<PlaneKind>(in, kPlaneKinds)) return parse_plane_kind(in, *kind);
-  return expected(in, "SPATIAL, PROJECTED, EULER, VECTOR, POINTS, RELATIV, AXIAL or RESET");
+  return in.fail_expected("SPATIAL, PROJECTED, EULER, VECTOR, POINTS, RELATIV, AXIAL or RESET");
 }
 
 Statement parse_function(BlockReader& in) {

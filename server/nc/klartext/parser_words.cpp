@@ -1,6 +1,5 @@
 #include "nc/klartext/parser_words.hpp"
 
-#include "base/text.hpp"
 #include "nc/klartext/parser_rules.hpp"
 
 namespace fitgauge::klartext {
@@ -56,10 +55,7 @@ Word WordReader::parse_name() {
     word.incremental = letter && kIncremental.contains(*letter);
     if (!word.incremental) letter.reset();
   }
-  if (!letter) {
-    in_.fail_expected(in_.at_end() ? "a word" : "a word of this block");
-    return word;
-  }
+  if (!letter) return in_.fail_expected(in_.at_end() ? "a word" : "a word of this block");
   word.letter = *letter;
   in_.move_to(name.data() + name.size());
   return word;
@@ -100,18 +96,18 @@ void WordReader::read() {
   word.argument = arguments_.contains(word.letter);
   if (word.incremental && (word.argument || !incremental_.contains(word.letter))) {
     in_.fail(
-        DiagnosticCode::SyntaxError, in_.place(begin, in_.at()),
+        DiagnosticCode::SyntaxError, in_.since(begin),
         fmt::format("{} must not have I here: write the absolute value", spelling(word.letter)));
   }
   if (!word.argument) {
     if (!allowed_.contains(word.letter)) {
-      in_.fail(DiagnosticCode::SyntaxError, in_.place(begin, in_.at()),
+      in_.fail(DiagnosticCode::SyntaxError, in_.since(begin),
                fmt::format("{} is not allowed in this block", spelling(word.letter)));
     }
     // F100 and FMAX are two values of one word.
     const Letter letter = kFeeds.contains(word.letter) ? Letter::F : word.letter;
     if (seen_.contains(letter) && letter != Letter::M) {
-      in_.fail(DiagnosticCode::WordRepeated, in_.place(begin, in_.at()),
+      in_.fail(DiagnosticCode::WordRepeated, in_.since(begin),
                fmt::format("{} is repeated in this block", spelling(letter)));
     }
     seen_.insert(letter);

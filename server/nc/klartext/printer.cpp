@@ -1,8 +1,8 @@
 #include "nc/klartext/printer.hpp"
 
 #include "nc/klartext/block_writer.hpp"
-#include "nc/klartext/forms.hpp"
 #include "nc/klartext/operator_names.hpp"
+#include "nc/klartext/parser_rules.hpp"
 
 namespace fitgauge::klartext {
 namespace {
@@ -27,6 +27,8 @@ void write_address(BlockWriter& out, const Expr& address) {
 void write_cell(BlockWriter& out, const Expr& cell) {
   out.value(operand(out, cell, 0)).write("/").value(operand(out, cell, 1));
 }
+
+std::string_view name_of(Axis axis) { return spelling(letter_of(axis)); }
 
 /// Writes the members of a form, each after a blank.
 class FormWriter {
@@ -55,6 +57,12 @@ class FormWriter {
     return is_absent(count) ? *this : word("REP").join().number(count);
   }
   FormWriter& words(Slice<Word> words, LetterSet) { return out_.words(words), *this; }
+  FormWriter& frame(Text name, Unit unit) {
+    if (!name.empty()) blank().write(name);
+    return word(unit == Unit::Inch ? "INCH" : "MM");
+  }
+  FormWriter& tool(const Expr& tool, bool) { return is_absent(tool) ? *this : number(tool); }
+  FormWriter& axis(std::optional<Axis> axis) { return axis ? word(name_of(*axis)) : *this; }
   FormWriter& rest(Text text) { return blank().write(text), *this; }
 
  private:
@@ -75,26 +83,11 @@ void write_block(BlockWriter& out, S statement) {
   form(io, statement);
 }
 
-void write_frame(BlockWriter& out, std::string_view head, Text name, Unit unit) {
-  out.write(head).write(name).write(name.empty() ? "" : " ");
-  out.write(unit == Unit::Inch ? "INCH" : "MM");
-}
-
-std::string_view name_of(Axis axis) { return spelling(letter_of(axis)); }
-
 /// Feeds and M functions end a positioning block; the compensation stands before them.
 constexpr LetterSet kFeedsAndM(Letter::F, Letter::FMax, Letter::FAuto, Letter::Fu, Letter::Fz,
                                Letter::Ft, Letter::FMaxT, Letter::M);
 
 void write_block(BlockWriter&, const Empty&) {}
-
-void write_block(BlockWriter& out, const BeginProgram& begin) {
-  write_frame(out, "BEGIN PGM ", begin.name, begin.unit);
-}
-
-void write_block(BlockWriter& out, const EndProgram& end) {
-  write_frame(out, "END PGM ", end.name, end.unit);
-}
 
 void write_block(BlockWriter& out, const Structure& structure) {
   out.write("*").write(std::string(1 + 2 * std::size_t{structure.level}, ' ')).write("- ");
@@ -113,17 +106,6 @@ void write_block(BlockWriter& out, const BlankForm& form) {
   if (form.tool_axis) out.write(" ").write(name_of(*form.tool_axis));
   if (!is_absent(form.file)) out.write(" ").value(form.file);
   out.words(form.words);
-}
-
-void write_block(BlockWriter& out, const ToolCall& call) {
-  out.write("TOOL CALL");
-  if (!is_absent(call.tool)) out.write(" ").value(call.tool);
-  if (call.axis) out.write(" ").write(name_of(*call.axis));
-  out.words(call.words);
-}
-
-void write_block(BlockWriter& out, const ToolDefinition& definition) {
-  out.write("TOOL DEF ").value(definition.tool).words(definition.words);
 }
 
 void write_block(BlockWriter& out, const Motion& motion) {
@@ -265,19 +247,15 @@ void write_block(BlockWriter& out, const SetUndefined& set) {
 }
 
 void write_block(BlockWriter& out, const ConditionalJump& jump) {
-  constexpr unsigned kFirstComparison = 9;
   const Operator op = out.program().node(std::get<NodeIndex>(jump.condition)).op;
-  unsigned fn = kFirstComparison;
-  std::string_view name = op == Operator::IsDefined ? "IS DEFINED" : "IS UNDEFINED";
-  for (const FunctionName& row : kComparisons) {
-    if (row.op != op) continue;
-    fn = kFirstComparison + static_cast<unsigned>(&row - kComparisons);
-    name = row.name;
-  }
-  write_fn(out, fn);
-  out.write(" IF ").signed_value(operand(out, jump.condition, 0)).write(" ").write(name);
-  if (op != Operator::IsDefined && op != Operator::IsUndefined) {
-    out.write(" ").signed_value(operand(out, jump.condition, 1));
+  const std::size_t comparison = place_of(op, Operator::Equal);
+  const bool compares = comparison < std::size(kComparisons);
+  write_fn(out, kFirstComparison + static_cast<unsigned>(compares ? comparison : 0));
+  out.write(" IF ").signed_value(operand(out, jump.condition, 0)).write(" ");
+  if (compares) {
+    out.write(kComparisons[comparison]).write(" ").signed_value(operand(out, jump.condition, 1));
+  } else {
+    out.write(op == Operator::IsDefined ? "IS DEFINED" : "IS UNDEFINED");
   }
   out.write(" GOTO LBL ").label(jump.target);
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "nc/klartext/expression.hpp"
 #include "nc/klartext/word_names.hpp"
 
 /// The content of a block, one small struct for each kind of block. All are trivially copyable:

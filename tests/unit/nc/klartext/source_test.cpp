@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "nc/klartext/source_text.hpp"
+#include "nc/klartext/syntax.hpp"
 #include "parse_support.hpp"
 #include "support/same_program.hpp"
 
