@@ -1,8 +1,6 @@
 #pragma once
 
 #include "base/clock.hpp"
-#include "nc/machine/axis.hpp"
-#include "nc/machine/frames.hpp"
 #include "nc/machine/machine.hpp"
 #include "nc/probing/cycle_descriptor.hpp"
 #include "nc/probing/cycle_fault.hpp"

@@ -1,7 +1,5 @@
 #include "nc/probing/measured_value.hpp"
 
-#include "metrology/gauging/gauge.hpp"
-
 namespace fitgauge::probing {
 
 using gauging::Verdict;
@@ -23,8 +21,9 @@ int MeasuredValue::error() const {
 
 Length to_length(double mm) { return Length::nearest_mm(mm).value(); }
 
-void set_length(CycleHost& host, std::uint16_t q, double mm) {
-  host.set_q(q, to_length(mm).to_mm(), Unit::Length);
+void set_lengths(CycleHost& host, std::size_t first, std::initializer_list<double> mm) {
+  for (const double length : mm)
+    host.set_q(static_cast<std::uint16_t>(first++), to_length(length).to_mm(), Unit::Length);
 }
 
 double to_angle(double degrees) { return std::round(degrees * 1e7) / 1e7; }
@@ -33,8 +32,8 @@ CycleResult<std::optional<Limits>> size_limits(const Arguments& arguments, int m
   const Limits limits{to_length(arguments.number(max_q)), to_length(arguments.number(min_q))};
   if (limits == Limits{}) return std::optional<Limits>{};
   if (limits.upper < limits.lower) {
-    return nc_error(1016, fmt::format("maximum Q{} = {} is less than minimum Q{} = {}", max_q,
-                                      format_mm(limits.upper), min_q, format_mm(limits.lower)));
+    return nc_error(1016, "maximum Q{} = {} is less than minimum Q{} = {}", max_q,
+                    format_mm(limits.upper), min_q, format_mm(limits.lower));
   }
   return std::optional(limits);
 }

@@ -2,7 +2,6 @@
 
 #include "nc/probing/arguments.hpp"
 #include "nc/probing/cycle_host.hpp"
-#include "nc/probing/measuring_record.hpp"
 
 namespace fitgauge::probing {
 
@@ -37,8 +36,8 @@ struct MeasuredValue {
 /// A length in the nearest nanometre. @pre finite and within 1e12 mm.
 Length to_length(double mm);
 
-/// A result in mm, to the nanometre.
-void set_length(CycleHost& host, std::uint16_t q, double mm);
+/// Results in mm, to the nanometre, in consecutive parameters.
+void set_lengths(CycleHost& host, std::size_t first, std::initializer_list<double> mm);
 
 constexpr Length magnitude(Length length) { return length < Length{} ? -length : length; }
 

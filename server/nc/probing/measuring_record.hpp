@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/length.hpp"
 #include "metrology/gauging/gauge.hpp"
 
 namespace fitgauge::probing {

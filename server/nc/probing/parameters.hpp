@@ -8,25 +8,32 @@ namespace fitgauge::probing::parameter {
 
 inline constexpr double kLongest = 99999.9999;
 
-constexpr CycleParameter coordinate(int number, std::string_view meaning,
+/// A parameter by its Q number, or a word.
+struct Address {
+  constexpr Address(int number) : id(probing::q(number)) {}  // NOLINT: a number is an address
+  constexpr Address(ParameterId word) : id(word) {}          // NOLINT: so is a word
+  ParameterId id;
+};
+
+constexpr CycleParameter coordinate(Address address, std::string_view meaning,
                                     std::optional<double> by_default = {}) {
-  return {.id = q(number),
+  return {.id = address.id,
           .meaning = meaning,
           .unit = Unit::Length,
           .range = {-kLongest, kLongest},
           .default_value = by_default};
 }
 
-constexpr CycleParameter length(int number, std::string_view meaning,
+constexpr CycleParameter length(Address address, std::string_view meaning,
                                 std::optional<double> by_default = {}) {
-  CycleParameter made = coordinate(number, meaning, by_default);
+  CycleParameter made = coordinate(address, meaning, by_default);
   made.range.min = 0;
   return made;
 }
 
-constexpr CycleParameter angle(int number, std::string_view meaning, double limit = 360,
+constexpr CycleParameter angle(Address address, std::string_view meaning, double limit = 360,
                                std::optional<double> by_default = {}) {
-  return {.id = q(number),
+  return {.id = address.id,
           .meaning = meaning,
           .unit = Unit::Angle,
           .range = {-limit, limit},
@@ -34,9 +41,9 @@ constexpr CycleParameter angle(int number, std::string_view meaning, double limi
 }
 
 /// A whole number of a few; without a default it must be given.
-constexpr CycleParameter choice(int number, std::string_view meaning, double first, double last,
-                                std::optional<double> by_default = {}) {
-  return {.id = q(number),
+constexpr CycleParameter choice(Address address, std::string_view meaning, double first,
+                                double last, std::optional<double> by_default = {}) {
+  return {.id = address.id,
           .meaning = meaning,
           .kind = ValueKind::Whole,
           .range = {first, last},
@@ -49,13 +56,34 @@ constexpr CycleParameter newer(CycleParameter parameter) {
   return parameter;
 }
 
-/// The parameters or results of one list and then of another.
-template <class T, std::size_t A, std::size_t B>
-constexpr std::array<T, A + B> join(const std::array<T, A>& first, const std::array<T, B>& second) {
-  std::array<T, A + B> all;
-  std::ranges::copy(first, all.begin());
-  std::ranges::copy(second, all.begin() + A);
-  return all;
+/// A parameter that a block may leave out.
+constexpr CycleParameter optional(CycleParameter parameter) {
+  parameter.required = false;
+  return parameter;
+}
+
+/// Coordinates of consecutive numbers.
+constexpr auto coordinates(int first, const auto&... meanings) {
+  return std::array{coordinate(first++, meanings)...};
+}
+
+/// Results of consecutive numbers.
+constexpr auto results(int first, Unit unit, const auto&... meanings) {
+  return std::array{CycleOutput{static_cast<std::uint16_t>(first++), meanings, unit}...};
+}
+
+template <class Row>
+constexpr std::array<Row, 1> as_list(const Row& row) {
+  return {row};
+}
+template <class Row, std::size_t N>
+constexpr const std::array<Row, N>& as_list(const std::array<Row, N>& list) {
+  return list;
+}
+/// One list of parameters, or of results, from lists and single ones.
+constexpr auto list(const auto&... parts) {
+  return std::apply([](const auto&... row) { return std::array{row...}; },
+                    std::tuple_cat(as_list(parts)...));
 }
 
 inline constexpr CycleParameter kMeasuringHeight = coordinate(261, "Measuring height");
@@ -69,44 +97,37 @@ inline constexpr CycleParameter kMeasuringAxis =
     choice(272, "Measuring axis: 1 main, 2 secondary, 3 probe axis", 1, 3);
 inline constexpr CycleParameter kDirection = choice(267, "Traverse direction: -1 or +1", -1, 1);
 /// Two points of a line, how they are touched and how the probe gets there: 400, 403 and 420.
-constexpr std::array<CycleParameter, 10> line(const CycleParameter& measuring_axis) {
-  return {coordinate(263, "1st point, main axis"),
-          coordinate(264, "1st point, secondary axis"),
-          coordinate(265, "2nd point, main axis"),
-          coordinate(266, "2nd point, secondary axis"),
-          measuring_axis,
-          kDirection,
-          kMeasuringHeight,
-          kSetUpClearance,
-          kClearanceHeight,
-          kMoveToClearance};
+constexpr auto line(const CycleParameter& measuring_axis) {
+  return list(coordinates(263, "1st point, main axis", "1st point, secondary axis",
+                          "2nd point, main axis", "2nd point, secondary axis"),
+              measuring_axis, kDirection, kMeasuringHeight, kSetUpClearance, kClearanceHeight,
+              kMoveToClearance);
 }
 
 /// A circle and how it is touched: 405, 412, 413, 421 and 422.
-constexpr std::array<CycleParameter, 9> circle(const CycleParameter& centre_main,
-                                               const CycleParameter& centre_secondary) {
-  return {centre_main,
-          centre_secondary,
-          length(262, "Nominal diameter"),
-          angle(325, "Starting angle", 360, 0),
-          angle(247, "Stepping angle", 120),
-          kMeasuringHeight,
-          kSetUpClearance,
-          kClearanceHeight,
-          kMoveToClearance};
+constexpr auto circle(const std::array<CycleParameter, 2>& centre) {
+  return list(centre, length(262, "Nominal diameter"), angle(325, "Starting angle", 360, 0),
+              angle(247, "Stepping angle", 120), kMeasuringHeight, kSetUpClearance,
+              kClearanceHeight, kMoveToClearance);
 }
+/// Exact radius of a ring, stud or sphere.
+constexpr CycleParameter standard_radius(std::string_view meaning) {
+  return {.id = q(407), .meaning = meaning, .unit = Unit::Length, .range = {0.0001, 99.9999}};
+}
+inline constexpr CycleParameter kFirstTouchAngle{.id = q(380),
+                                                 .meaning = "Angle of the first touch",
+                                                 .unit = Unit::Angle,
+                                                 .range = {0, 360},
+                                                 .default_value = 0};
 inline constexpr CycleParameter kTouches = newer(choice(423, "Number of touches", 3, 4, 4));
 inline constexpr CycleParameter kTraverse = newer(choice(365, "Traverse: 0 line, 1 arc", 0, 1, 1));
 
 /// Three holes on a bolt circle: 416 and 430.
-inline constexpr std::array kBoltCircle{coordinate(273, "Nominal centre, main axis"),
-                                        coordinate(274, "Nominal centre, secondary axis"),
-                                        length(262, "Nominal diameter of the bolt circle"),
-                                        angle(291, "Angle of the 1st hole"),
-                                        angle(292, "Angle of the 2nd hole"),
-                                        angle(293, "Angle of the 3rd hole"),
-                                        kMeasuringHeight,
-                                        kClearanceHeight};
+inline constexpr std::array kBoltCircle =
+    list(coordinates(273, "Nominal centre, main axis", "Nominal centre, secondary axis"),
+         length(262, "Nominal diameter of the bolt circle"), angle(291, "Angle of the 1st hole"),
+         angle(292, "Angle of the 2nd hole"), angle(293, "Angle of the 3rd hole"), kMeasuringHeight,
+         kClearanceHeight);
 
 inline constexpr CycleParameter kCentreToleranceMain =
     length(279, "Tolerance of the centre, main axis", 0);
@@ -141,41 +162,34 @@ constexpr CycleParameter in_part(std::uint8_t part, CycleParameter parameter) {
   return parameter;
 }
 constexpr CycleParameter result_parameter(std::uint8_t part, double last = 1999) {
-  return in_part(part, {.id = ParameterId::WordResult,
-                        .meaning = "Q parameter for the result",
-                        .kind = ValueKind::Whole,
-                        .range = {0, last}});
+  return in_part(part, choice(ParameterId::WordResult, "Q parameter for the result", 0, last));
 }
 constexpr CycleParameter height_parameter(std::uint8_t part) {
-  return in_part(part, {.id = ParameterId::WordHeight,
-                        .meaning = kClearanceHeight.meaning,
-                        .unit = Unit::Length,
-                        .range = kClearanceHeight.range});
+  return in_part(part, coordinate(ParameterId::WordHeight, kClearanceHeight.meaning));
 }
 
-inline constexpr std::array<CycleOutput, 3> kStatusResults{
-    {{180, "Good", Unit::None}, {181, "Rework", Unit::None}, {182, "Reject", Unit::None}}};
+/// QS400, as parse_tolerance() reads it.
+constexpr CycleParameter tolerance_text(std::string_view meaning) {
+  return {.id = q(400), .meaning = meaning, .kind = ValueKind::Text, .required = false};
+}
+
+inline constexpr std::array kStatusResults = results(180, Unit::None, "Good", "Rework", "Reject");
 
 /// Results of 412, 413 and 416.
-inline constexpr std::array<CycleOutput, 3> kPresetCircleResults{
-    {{151, "Centre, main axis", Unit::Length},
-     {152, "Centre, secondary axis", Unit::Length},
-     {153, "Diameter", Unit::Length}}};
+inline constexpr std::array kPresetCircleResults =
+    results(151, Unit::Length, "Centre, main axis", "Centre, secondary axis", "Diameter");
 
 /// Results of 410 and 411.
-inline constexpr std::array<CycleOutput, 4> kRectangleResults{
-    {{151, "Centre, main axis", Unit::Length},
-     {152, "Centre, secondary axis", Unit::Length},
-     {154, "Length, main axis", Unit::Length},
-     {155, "Length, secondary axis", Unit::Length}}};
+inline constexpr std::array kRectangleResults =
+    list(results(151, Unit::Length, "Centre, main axis", "Centre, secondary axis"),
+         results(154, Unit::Length, "Length, main axis", "Length, secondary axis"));
 
 /// Results of 421, 422 and 430.
-inline constexpr std::array kCircleResults = join(
-    join(kPresetCircleResults,
-         std::array<CycleOutput, 3>{{{161, "Deviation of the centre, main axis", Unit::Length},
-                                     {162, "Deviation of the centre, secondary axis", Unit::Length},
-                                     {163, "Deviation of the diameter", Unit::Length}}}),
-    kStatusResults);
+inline constexpr std::array kCircleResults =
+    list(kPresetCircleResults,
+         results(161, Unit::Length, "Deviation of the centre, main axis",
+                 "Deviation of the centre, secondary axis", "Deviation of the diameter"),
+         kStatusResults);
 
 }  // namespace fitgauge::probing::parameter
 

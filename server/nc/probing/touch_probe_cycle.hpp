@@ -1,9 +1,6 @@
 #pragma once
 
-#include "nc/machine/machine.hpp"
 #include "nc/probing/arguments.hpp"
-#include "nc/probing/cycle_descriptor.hpp"
-#include "nc/probing/cycle_fault.hpp"
 #include "nc/probing/cycle_host.hpp"
 
 namespace fitgauge::probing {

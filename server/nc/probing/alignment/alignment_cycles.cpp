@@ -4,7 +4,6 @@
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
 #include "nc/probing/touch/line_probing.hpp"
-#include "nc/probing/touch/part_here.hpp"
 
 namespace fitgauge::probing::alignment_cycles {
 
@@ -12,7 +11,7 @@ using machine::Axis;
 using namespace parameter;
 
 constexpr std::array k400Parameters =
-    join(line(kMeasuringAxisInPlane), std::array{kReferenceAngle, kPresetRow});
+    list(line(kMeasuringAxisInPlane), kReferenceAngle, kPresetRow);
 
 CycleResult<void> rotate(const CycleContext& context, ProbingMotion& motion) {
   const auto edge = TRY(probe_line(context, motion));
@@ -31,31 +30,27 @@ CycleResult<void> set_rotation(const CycleContext& context) {
   return set_basic_rotation(context, rotation, context.whole(305));
 }
 
-constexpr std::array k404Parameters{
-    kReferenceAngle,
-    newer(choice(305, "Row of the preset table, 0 active at once, -1 row of the active preset", -1,
-                 kLastRow, -1))};
+constexpr std::array k404Parameters =
+    list(kReferenceAngle,
+         newer(choice(305, "Row of the preset table, 0 active at once, -1 row of the active preset",
+                      -1, kLastRow, -1)));
 
-constexpr std::array kCompensation{
-    kReferenceAngle, kPresetRow,
-    newer(choice(402, "Compensate by: 0 basic rotation, 1 turning the table", 0, 1, 0)),
-    newer(choice(337, "Set the table to zero: 0 no, 1 yes", 0, 1, 0))};
+constexpr std::array kCompensation =
+    list(kReferenceAngle, kPresetRow,
+         newer(choice(402, "Compensate by: 0 basic rotation, 1 turning the table", 0, 1, 0)),
+         newer(choice(337, "Set the table to zero: 0 no, 1 yes", 0, 1, 0)));
 
-constexpr std::array k401Parameters = join(
-    std::array{coordinate(268, "1st hole, main axis"), coordinate(269, "1st hole, secondary axis"),
-               coordinate(270, "2nd hole, main axis"), coordinate(271, "2nd hole, secondary axis"),
-               kMeasuringHeight, kClearanceHeight},
-    kCompensation);
+constexpr std::array k401Parameters =
+    list(coordinates(268, "1st hole, main axis", "1st hole, secondary axis", "2nd hole, main axis",
+                     "2nd hole, secondary axis"),
+         kMeasuringHeight, kClearanceHeight, kCompensation);
 
-constexpr std::array k402Parameters = join(
-    std::array{coordinate(268, "1st stud, main axis"), coordinate(269, "1st stud, secondary axis"),
-               length(313, "Diameter of the 1st stud"),
-               coordinate(261, "Measuring height of the 1st stud"),
-               coordinate(270, "2nd stud, main axis"), coordinate(271, "2nd stud, secondary axis"),
-               length(314, "Diameter of the 2nd stud"),
-               coordinate(315, "Measuring height of the 2nd stud"), kSetUpClearance,
-               kClearanceHeight, kMoveToClearance},
-    kCompensation);
+constexpr std::array k402Parameters = list(
+    coordinates(268, "1st stud, main axis", "1st stud, secondary axis"),
+    length(313, "Diameter of the 1st stud"), coordinate(261, "Measuring height of the 1st stud"),
+    coordinates(270, "2nd stud, main axis", "2nd stud, secondary axis"),
+    length(314, "Diameter of the 2nd stud"), coordinate(315, "Measuring height of the 2nd stud"),
+    kSetUpClearance, kClearanceHeight, kMoveToClearance, kCompensation);
 
 /// The angle of the line between two centres less Q307, as basic rotation or by turning the table.
 CycleResult<void> compensate(const CycleContext& context, const WorkingPlane& plane, Point2 first,
@@ -75,13 +70,11 @@ CycleResult<void> compensate(const CycleContext& context, const WorkingPlane& pl
 }
 
 CycleResult<void> two_holes(const CycleContext& context, ProbingMotion& motion) {
-  const std::array nominal{Point2{context.number(268), context.number(269)},
-                           Point2{context.number(270), context.number(271)}};
-  const double height = context.number(261);
+  const std::array nominal{point_of(context, 268, 269), point_of(context, 270, 271)};
   const auto holes = probe_hole_centres(context, motion, nominal);
   if (!holes) {
-    const std::array places{PlannedPlace{Side::Inside, {nominal[0].x, nominal[0].y, height}},
-                            PlannedPlace{Side::Inside, {nominal[1].x, nominal[1].y, height}}};
+    const std::array places{PlannedPlace{Side::Inside, place_of(context, 268, 269, 261)},
+                            PlannedPlace{Side::Inside, place_of(context, 270, 271, 261)}};
     return with_part(holes.error(), context, motion.plane(), places);
   }
   return compensate(context, motion.plane(), holes->front(), holes->back());
@@ -102,20 +95,20 @@ CycleResult<Point2> stud_centre(const CycleContext& context, ProbingMotion& moti
 }
 
 CycleResult<void> two_studs(const CycleContext& context, ProbingMotion& motion) {
-  const auto first = TRY(stud_centre(context, motion, {context.number(268), context.number(269)},
+  const auto first = TRY(stud_centre(context, motion, point_of(context, 268, 269),
                                      context.number(313), context.number(261)));
-  const auto second = TRY(stud_centre(context, motion, {context.number(270), context.number(271)},
+  const auto second = TRY(stud_centre(context, motion, point_of(context, 270, 271),
                                       context.number(314), context.number(315)));
   return compensate(context, motion.plane(), first, second);
 }
 
 constexpr std::array k403Parameters =
-    join(line(kMeasuringAxis),
-         std::array{choice(312, "Rotary axis: 0 by the measuring axis, 4 A, 5 B, 6 C", 0, 6, 0),
-                    choice(337, "Set the axis to zero: 0 no, 1 yes", 0, 1, 0), kTableRow, kTransfer,
-                    newer(angle(380, "Reference angle", 360, 0))});
+    list(line(kMeasuringAxis),
+         choice(312, "Rotary axis: 0 by the measuring axis, 4 A, 5 B, 6 C", 0, 6, 0),
+         choice(337, "Set the axis to zero: 0 no, 1 yes", 0, 1, 0), kTableRow, kTransfer,
+         newer(angle(380, "Reference angle", 360, 0)));
 
-constexpr std::array<CycleOutput, 1> kAngleResults{{{150, "Measured angle", Unit::Angle}}};
+constexpr std::array kAngleResults = results(150, Unit::Angle, "Measured angle");
 
 /// The axis around which the line is turned, and the right-handed angle.
 struct Misalignment {
@@ -146,9 +139,8 @@ CycleResult<void> align_line(const CycleContext& context) {
   const auto edge = TRY(probe_line(context, motion));
   const auto [around, angle] = misalignment(edge, motion.plane());
   const Axis rotary = rotary_axis_around(around);
-  if (wanted != 0 && rotary != static_cast<Axis>(wanted - 1)) {
+  if (wanted != 0 && rotary != static_cast<Axis>(wanted - 1))
     return nc_error(1019, "this rotary axis does not turn the measured line");
-  }
   context.host.set_q(150, to_angle(angle), Unit::Angle);
   const bool in_plane = around == motion.plane().probe;
   const double target = in_plane ? context.number(380) : 0;
@@ -156,18 +148,16 @@ CycleResult<void> align_line(const CycleContext& context) {
   return context.whole(337) == 0 ? CycleResult<void>() : zero(context, rotary);
 }
 
-constexpr std::array k405Parameters = join(
-    circle(coordinate(321, "Centre, main axis"),
-           coordinate(322,
-                      "Centre, secondary axis; 0: the hole comes to the positive secondary axis")),
-    std::array{choice(337,
-                      "Set to zero: 0 the table, else the row of the datum table for its offset", 0,
-                      9999, 0)});
+constexpr std::array k405Parameters = list(
+    circle(coordinates(321, "Centre, main axis",
+                       "Centre, secondary axis; 0: the hole comes to the positive secondary axis")),
+    choice(337, "Set to zero: 0 the table, else the row of the datum table for its offset", 0, 9999,
+           0));
 
 double angle_of(Point2 point) { return machine::degrees(std::atan2(point.y, point.x)); }
 
 CycleResult<void> align_hole(const CycleContext& context, ProbingMotion& motion) {
-  const Point2 nominal{context.number(321), context.number(322)};
+  const Point2 nominal = point_of(context, 321, 322);
   const auto probed = TRY(probe_circle(context, motion, Side::Inside, nominal));
   const double wanted = nominal.y == 0 ? 90 : angle_of(nominal);
   const double misalignment = std::remainder(angle_of(probed.circle.centre) - wanted, 360);

@@ -90,9 +90,8 @@ CycleResult<double> table_angle(const machine::MachineState& state, Axis rotary,
   using machine::FaultKind;
   const machine::RotaryAxis* axis = state.kinematics.find(rotary);
   if (axis == nullptr) return make_fault(FaultKind::AxisMissing, name(rotary));
-  if (axis->mount == machine::AxisMount::Head) {
+  if (axis->mount == machine::AxisMount::Head)
     return nc_error(1100, "the rotary axis does not turn the workpiece");
-  }
   // A positive angle turns the tool right-handed around the axis, seen from the workpiece.
   return dot(axis->direction, unit_vector(rotary)) < 0 ? -angle_deg : angle_deg;
 }

@@ -1,10 +1,7 @@
-#include "base/length.hpp"
 #include "log_templates.hpp"
-#include "nc/machine/machine_state.hpp"
 #include "nc/machine/tolerance.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/log/measuring_log.hpp"
-#include "nc/probing/measured_value.hpp"
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
 
@@ -15,16 +12,8 @@ using namespace fmt::literals;
 using namespace parameter;
 
 /// Parameters of 460, 462 and 463 for touching a standard.
-constexpr CycleParameter kStandardRadius{.id = q(407),
-                                         .meaning = "Exact radius of the standard",
-                                         .unit = Unit::Length,
-                                         .range = {0.0001, 99.9999}};
+constexpr CycleParameter kStandardRadius = standard_radius("Exact radius of the standard");
 constexpr CycleParameter kStandardTouches = choice(423, "Number of touches", 3, 8, 4);
-constexpr CycleParameter kFirstAngle{.id = q(380),
-                                     .meaning = "Angle of the first touch",
-                                     .unit = Unit::Angle,
-                                     .range = {0, 360},
-                                     .default_value = 0};
 
 /// The circle, or sphere, of the ball centres around a standard as the control computes them with
 /// the probe data it has; in plane coordinates.
@@ -86,7 +75,7 @@ CycleResult<void> check_straight(const MachineState& state, machine::Axis probe)
 
 CycleResult<double> positive(double value, std::string_view what) {
   if (value > 0) return to_length(value).to_mm();
-  return nc_error(1080, fmt::format("{} of {:.4f} mm", what, value));
+  return nc_error(1080, "{} of {:.4f} mm", what, value);
 }
 
 /// The calibration of the touch probe in the spindle, which is above or in the standard. The
@@ -210,15 +199,11 @@ class ProbeCalibrator {
   Vec3 start_;
 };
 
-constexpr std::array k460Parameters{
-    kStandardRadius,
-    kSetUpClearance,
-    kMoveToClearance,
-    kStandardTouches,
-    kFirstAngle,
-    choice(433, "Calibrate the length: 0 no, 1 yes", 0, 1, 0),
-    coordinate(434, "Coordinate of the sphere's centre in the probe axis", 0),
-    newer(choice(455, "Number of points of the 3-D calibration", 0, 30, 0))};
+constexpr std::array k460Parameters =
+    list(kStandardRadius, kSetUpClearance, kMoveToClearance, kStandardTouches, kFirstTouchAngle,
+         choice(433, "Calibrate the length: 0 no, 1 yes", 0, 1, 0),
+         coordinate(434, "Coordinate of the sphere's centre in the probe axis", 0),
+         newer(choice(455, "Number of points of the 3-D calibration", 0, 30, 0)));
 
 /// The sphere through a horizontal circle and a point near its pole.
 RoundStandard sphere_through(const RoundStandard& circle, const Vec3& pole) {
@@ -246,16 +231,15 @@ CycleResult<void> calibrate_on_sphere(const CycleContext& context) {
   const double radius = context.number(407);
   auto calibrator = TRY(ProbeCalibrator::begin(context));
   const auto measured =
-      calibrator.measure([&](Point2 near) { return touch_sphere(calibrator, radius, near); });
-  if (!measured) return measured.error();
+      TRY(calibrator.measure([&](Point2 near) { return touch_sphere(calibrator, radius, near); }));
 
   const machine::ProbeSystem probe = *context.state().probe_system();
-  ProbeCalibration found{.radius = measured->mean.radius - radius,
-                         .centre_offset = calibrator.corrected_offset(measured->error),
-                         .residual = measured->mean.residual};
+  ProbeCalibration found{.radius = measured.mean.radius - radius,
+                         .centre_offset = calibrator.corrected_offset(measured.error),
+                         .residual = measured.mean.residual};
   if (context.whole(433) == 1) {
     // The ball centre is one radius above the south pole, where the length ends.
-    const double too_high = measured->mean.height - context.number(434);
+    const double too_high = measured.mean.height - context.number(434);
     found.length = probe.length + too_high + *found.radius - probe.radius;
   }
   return calibrator.finish(found);
@@ -272,9 +256,9 @@ CycleResult<void> calibrate_length(const CycleContext& context) {
 }
 
 constexpr std::array k462Parameters{kStandardRadius, kSetUpClearance, kStandardTouches,
-                                    kFirstAngle};
+                                    kFirstTouchAngle};
 constexpr std::array k463Parameters{kStandardRadius, kSetUpClearance, kMoveToClearance,
-                                    kStandardTouches, kFirstAngle};
+                                    kStandardTouches, kFirstTouchAngle};
 
 /// Returns the height of the ball centre. In a ring it is the present height. The upper edge of a
 /// stud is assumed at the clearance below the probe, and is touched one ball diameter lower.
@@ -288,13 +272,12 @@ double measuring_height(ProbeCalibrator& calibrator, Side side) {
 CycleResult<void> calibrate_radius(const CycleContext& context, Side side) {
   auto calibrator = TRY(ProbeCalibrator::begin(context));
   const double height = measuring_height(calibrator, side);
-  const auto measured =
-      calibrator.measure([&](Point2 near) { return calibrator.touch_around(side, near, height); });
-  if (!measured) return measured.error();
-  const double radius = measured->mean.radius - context.number(407);
+  const auto measured = TRY(
+      calibrator.measure([&](Point2 near) { return calibrator.touch_around(side, near, height); }));
+  const double radius = measured.mean.radius - context.number(407);
   return calibrator.finish({.radius = side == Side::Inside ? -radius : radius,
-                            .centre_offset = calibrator.corrected_offset(measured->error),
-                            .residual = measured->mean.residual});
+                            .centre_offset = calibrator.corrected_offset(measured.error),
+                            .residual = measured.mean.residual});
 }
 
 constexpr TouchProbeCycle kCycles[] = {
@@ -302,8 +285,7 @@ constexpr TouchProbeCycle kCycles[] = {
           errors::kUnscaled | ErrorSet{1075, 1080}, calibrate_on_sphere,
           "From a position above the sphere: its top and equator, twice with the spindle turned by "
           "180 degrees; effective radius, CAL_OF1, CAL_OF2 and, with Q433, the effective length. "
-          "The "
-          "log TCHPRAUTO.html.",
+          "The log TCHPRAUTO.html.",
           "Q455: the model of the probe triggers alike in all directions."),
     cycle(461, "TS CALIBRATION OF TOOL LENGTH", CycleKind::Calibration, k461Parameters, {},
           errors::kUnscaled | ErrorSet{1075, 1080}, calibrate_length,
@@ -311,13 +293,13 @@ constexpr TouchProbeCycle kCycles[] = {
           "calibration ring; the effective length. The log TCHPRAUTO.html."),
     cycle(462, "CALIBRATION OF TS IN RING", CycleKind::Calibration, k462Parameters, {},
           errors::kUnscaled | ErrorSet{1075, 1080}, with<calibrate_radius, Side::Inside>,
-          "From a position in the ring at measuring height, twice with the spindle turned "
-          "by 180 degrees; effective radius, CAL_OF1, CAL_OF2. The log TCHPRAUTO.html."),
+          "From a position in the ring at measuring height, twice with the spindle turned by 180 "
+          "degrees; effective radius, CAL_OF1, CAL_OF2. The log TCHPRAUTO.html."),
     cycle(463, "TS CALIBRATION ON STUD", CycleKind::Calibration, k463Parameters, {},
           errors::kUnscaled | ErrorSet{1075, 1080}, with<calibrate_radius, Side::Outside>,
-          "From a position SET_UP + Q320 above the stud, which is touched one ball diameter "
-          "below its edge, twice with the spindle turned by 180 degrees; effective radius, "
-          "CAL_OF1, CAL_OF2. The log TCHPRAUTO.html.")};
+          "From a position SET_UP + Q320 above the stud, which is touched one ball diameter below "
+          "its edge, twice with the spindle turned by 180 degrees; effective radius, CAL_OF1, "
+          "CAL_OF2. The log TCHPRAUTO.html.")};
 
 }  // namespace fitgauge::probing::calibration_cycles
 

@@ -98,9 +98,8 @@ Kinematics Adjustment::at(const Eigen::VectorXd& values) const {
 Eigen::VectorXd Adjustment::residuals(const Kinematics& model) const {
   std::vector<double> all;
   for (const PoseGroup& group : poses_.groups) {
-    for (const Vec3& error : spread(group, model, poses_.tool).errors) {
+    for (const Vec3& error : spread(group, model, poses_.tool).errors)
       all.insert(all.end(), {error.x, error.y, error.z});
-    }
   }
   return Eigen::Map<Eigen::VectorXd>(all.data(), index_of(all.size()));
 }

@@ -8,8 +8,6 @@ namespace fitgauge::probing {
 /// mm: the lever at which a direction counts as much as a location.
 inline constexpr double kLever = 100;
 
-enum class ErrorKind : std::uint8_t { Location, Direction, Zero };
-
 /// A fitted value in mm: a location or, at kLever, a direction of an axis, along one of its two
 /// vectors, or at kLever its zero.
 struct Unknown {

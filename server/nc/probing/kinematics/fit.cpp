@@ -122,38 +122,24 @@ double coverage_of(std::size_t freedom) {
   return static_cast<double>(metrology::t_quantile(0.975L, static_cast<long double>(freedom)));
 }
 
+constexpr std::array kKinds{ErrorKind::Zero, ErrorKind::Direction, ErrorKind::Location};
+
 std::vector<AxisErrors> errors_of(const Adjustment& fit, const Kinematics& model,
                                   const std::vector<Line>& lines) {
   std::vector<AxisErrors> all;
   const double coverage = coverage_of(fit.freedom());
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const Axis axis = lines[k].modelled.axis;
-    AxisErrors& errors = all.emplace_back();
-    errors.axis = axis;
-    if (const Estimate location(fit, lines[k], k, ErrorKind::Location); location.is_seen()) {
-      errors.valuation = 1 / location.worst();
-      errors.location = location.found(restless_axes(model, axis), coverage);
-    }
-    if (const Estimate direction(fit, lines[k], k, ErrorKind::Direction); direction.is_seen()) {
-      errors.tilt_deg = direction.found(0, coverage);
-    }
-    if (const Estimate zero(fit, lines[k], k, ErrorKind::Zero); zero.is_seen()) {
-      errors.zero_deg = zero.found(0, coverage);
+    AxisErrors& errors = all.emplace_back(AxisErrors{.axis = axis});
+    for (const ErrorKind kind : kKinds) {
+      const Estimate estimate(fit, lines[k], k, kind);
+      if (!estimate.is_seen()) continue;
+      const bool is_location = kind == ErrorKind::Location;
+      if (is_location) errors.valuation = 1 / estimate.worst();
+      errors[kind] = estimate.found(is_location ? restless_axes(model, axis) : 0, coverage);
     }
   }
   return all;
-}
-
-constexpr std::array kKinds{ErrorKind::Zero, ErrorKind::Direction, ErrorKind::Location};
-
-template <class Errors>
-auto& found_of(Errors& errors, ErrorKind kind) {
-  switch (kind) {
-    case ErrorKind::Location: return errors.location;
-    case ErrorKind::Direction: return errors.tilt_deg;
-    case ErrorKind::Zero: break;
-  }
-  return errors.zero_deg;
 }
 
 /// Drops the least significant unknowns, angles first. @return whether something was dropped.
@@ -162,7 +148,7 @@ bool drop_insignificant(std::vector<Unknown>& unknowns, const std::vector<AxisEr
     double least = 0;
     std::optional<std::size_t> dropped;
     for (std::size_t k = 0; k < errors.size(); ++k) {
-      const auto& found = found_of(errors[k], kind);
+      const auto& found = errors[k][kind];
       if (!found || found->is_significant) continue;
       const double significance = found->size / found->standard_uncertainty;
       if (!dropped || significance < least) dropped = k;
@@ -179,7 +165,7 @@ bool drop_insignificant(std::vector<Unknown>& unknowns, const std::vector<AxisEr
 void mark_corrected(std::vector<AxisErrors>& errors, const std::vector<Unknown>& unknowns) {
   for (std::size_t k = 0; k < errors.size(); ++k) {
     for (const ErrorKind kind : kKinds) {
-      auto& found = found_of(errors[k], kind);
+      auto& found = errors[k][kind];
       if (!found) continue;
       found->is_significant =
           std::ranges::any_of(unknowns, [&](const Unknown& u) { return is_of(u, k, kind); });
@@ -195,9 +181,8 @@ std::optional<std::size_t> carrier_of(const Kinematics& model, std::span<const A
   if (own == chain.begin() || std::prev(own)->mount != own->mount) return std::nullopt;
   const RotaryAxis& carrier = *std::prev(own);
   const auto found = std::ranges::find(axes, carrier.axis);
-  if (found == axes.end() || norm(cross(carrier.direction, own->direction)) < tolerance::kAcross) {
+  if (found == axes.end() || norm(cross(carrier.direction, own->direction)) < tolerance::kAcross)
     return std::nullopt;
-  }
   return static_cast<std::size_t>(found - axes.begin());
 }
 

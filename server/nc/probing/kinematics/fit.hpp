@@ -51,19 +51,24 @@ struct FoundError {
   bool is_significant = true;
 };
 
+enum class ErrorKind : std::uint8_t { Location, Direction, Zero };
+
 /// The result of the poses for one rotary axis. Quantities that they cannot show have no value.
 struct AxisErrors {
   machine::Axis axis = machine::Axis::C;
-  std::optional<FoundError> location;  ///< in mm across the axis, at the height of the sphere
-  std::optional<FoundError> tilt_deg;  ///< a rotation vector across the axis
-  std::optional<FoundError> zero_deg;  ///< a rotation vector along the axis
+  /// By their kind: the location in mm across the axis, at the height of the sphere; the direction
+  /// and the zero as rotation vectors in degrees, across and along the axis.
+  std::array<std::optional<FoundError>, 3> found{};
   /// Variance of one measured centre divided by the variance of the location, in its worst
   /// direction; 0 without a location.
   double valuation = 0;
 
+  auto& operator[](ErrorKind kind) { return found.at(static_cast<std::size_t>(kind)); }
+  const auto& operator[](ErrorKind kind) const { return found.at(static_cast<std::size_t>(kind)); }
+  const std::optional<FoundError>& location() const { return found.front(); }
   bool is_significant() const {
-    return (!location || location->is_significant) && (!tilt_deg || tilt_deg->is_significant) &&
-           (!zero_deg || zero_deg->is_significant);
+    return std::ranges::all_of(found,
+                               [](const auto& each) { return !each || each->is_significant; });
   }
 };
 

@@ -1,12 +1,7 @@
-#include "base/text.hpp"
 #include "nc/probing/cycles.hpp"
-#include "nc/probing/kinematics/correction.hpp"
-#include "nc/probing/kinematics/log.hpp"
-#include "nc/probing/kinematics/parameters.hpp"
+#include "nc/probing/kinematics/measurement.hpp"
 #include "nc/probing/log/measuring_log.hpp"
-#include "nc/probing/measured_value.hpp"
 #include "nc/probing/parameters.hpp"
-#include "nc/probing/touch/probing_motion.hpp"
 
 namespace fitgauge::probing::kinematics_cycles {
 
@@ -22,22 +17,21 @@ constexpr std::size_t kLongestName = 16;
 constexpr HtmlLog kLog{"TCHPR450.html", "Log of cycle 450",
                        "Log of touch-probe cycle 450 SAVE KINEMATICS", "", true};
 
-constexpr std::array k450Parameters{
-    choice(410, "Mode: 0 save, 1 restore, 2 status, 3 delete", 0, 3),
-    CycleParameter{.id = q(kRecordName),
-                   .meaning = "Number or name of the record",
-                   .kind = ValueKind::NumberOrText,
-                   .range = {0, 99999},
-                   .required = false}};
+constexpr std::array k450Parameters =
+    list(choice(410, "Mode: 0 save, 1 restore, 2 status, 3 delete", 0, 3),
+         CycleParameter{.id = q(kRecordName),
+                        .meaning = "Number or name of the record",
+                        .kind = ValueKind::NumberOrText,
+                        .range = {0, 99999},
+                        .required = false});
 
-/// @errors 1017 no name, 1011 a name that is empty, longer than 16 characters or not printable, or
-/// a broken number.
+/// @errors 1017 no name, 1011 a name that is empty, too long or not printable, or a broken number.
 CycleResult<std::string> record_name(const Arguments& arguments) {
   if (const std::string* text = arguments.text(q(kRecordName))) {
     const std::string_view name = trim(*text);
     const bool printable = std::ranges::none_of(name, [](unsigned char c) { return c < ' '; });
     if (!name.empty() && name.size() <= kLongestName && printable) return std::string(name);
-    return nc_error(1011, fmt::format("QS409 has 1 to {} characters", kLongestName));
+    return nc_error(1011, "QS409 has 1 to {} characters", kLongestName);
   }
   if (!arguments.has_number(q(kRecordName)))
     return nc_error(1017, "Q409 or QS409 names the record");
@@ -51,29 +45,29 @@ std::string mm(double value) { return log_text(to_length(value), false); }
 /// Every transformation of a kinematic model as a table.
 std::string table_of(const Kinematics& model) {
   std::string html =
-      "<table>\n<thead><tr><th scope=\"col\">Axis</th><th scope=\"col\">X</th>"
-      "<th scope=\"col\">Y</th><th scope=\"col\">Z</th><th scope=\"col\">Direction</th></tr>"
-      "</thead>\n<tbody>\n";
+      "<table>\n<thead><tr><th scope=\"col\">Axis</th><th scope=\"col\">X</th><th "
+      "scope=\"col\">Y</th><th scope=\"col\">Z</th><th "
+      "scope=\"col\">Direction</th></tr></thead>\n<tbody>\n";
   for (const machine::RotaryAxis& axis : model.axes()) {
     html += fmt::format(
-        "<tr><th scope=\"row\">{} in the {}</th><td>{}</td><td>{}</td><td>{}</td>"
-        "<td>{} {} {}</td></tr>\n",
+        "<tr><th scope=\"row\">{} in the {}</th><td>{}</td><td>{}</td><td>{}</td><td>{} {} "
+        "{}</td></tr>\n",
         name(axis.axis), axis.mount == machine::AxisMount::Table ? "table" : "head",
         mm(axis.centre.x), mm(axis.centre.y), mm(axis.centre.z), fixed(axis.direction.x, 7),
         fixed(axis.direction.y, 7), fixed(axis.direction.z, 7));
   }
   const Vec3& offset = model.offset();
-  return html + fmt::format(
-                    "<tr><th scope=\"row\">Offset of the tool</th><td>{}</td><td>{}</td>"
-                    "<td>{}</td><td></td></tr>\n</tbody>\n</table>\n",
-                    mm(offset.x), mm(offset.y), mm(offset.z));
+  return html +
+         fmt::format(
+             "<tr><th scope=\"row\">Offset of the "
+             "tool</th><td>{}</td><td>{}</td><td>{}</td><td></td></tr>\n</tbody>\n</table>\n",
+             mm(offset.x), mm(offset.y), mm(offset.z));
 }
 
 CycleResult<std::string> save(const CycleContext& context, KinematicsRecords& records,
                               const std::string& record) {
-  if (!records.contains(record) && records.size() >= kMostRecords) {
-    return nc_error(1097, fmt::format("{} records are stored: delete one first", kMostRecords));
-  }
+  if (!records.contains(record) && records.size() >= kMostRecords)
+    return nc_error(1097, "{} records are stored: delete one first", kMostRecords);
   const Kinematics& active = context.state().kinematics;
   records.insert_or_assign(record, active);
   TRY(context.host.keep_kinematics(records));
@@ -83,7 +77,7 @@ CycleResult<std::string> save(const CycleContext& context, KinematicsRecords& re
 CycleResult<std::string> restore(const CycleContext& context, const KinematicsRecords& records,
                                  const std::string& record) {
   const auto saved = records.find(record);
-  if (saved == records.end()) return nc_error(1096, fmt::format("record not found: {}", record));
+  if (saved == records.end()) return nc_error(1096, "record not found: {}", record);
   const std::string before = table_of(context.state().kinematics);
   if (const auto set = context.machine.set_kinematics(saved->second); !set) {
     return nc_error(1096, set.error().text);  // of another machine
@@ -94,17 +88,14 @@ CycleResult<std::string> restore(const CycleContext& context, const KinematicsRe
 
 std::string status(const KinematicsRecords& records) {
   std::string html = fmt::format("<p>{} of {} records:</p>\n", records.size(), kMostRecords);
-  for (const auto& [record, model] : records) {
+  for (const auto& [record, model] : records)
     html += fmt::format("<p>{}</p>\n", escape_html(record));
-  }
   return html;
 }
 
 CycleResult<std::string> remove(const CycleContext& context, KinematicsRecords& records,
                                 const std::string& record) {
-  if (records.erase(record) == 0) {
-    return nc_error(1011, fmt::format("record not found: {}", record));
-  }
+  if (records.erase(record) == 0) return nc_error(1011, "record not found: {}", record);
   TRY(context.host.keep_kinematics(records));
   return fmt::format("<p>Deleted {}</p>\n", escape_html(record));
 }
@@ -130,11 +121,57 @@ CycleResult<void> manage_kinematics(const CycleContext& context) {
                                  date_and_time(context.host), text));
 }
 
-constexpr std::array k451Mode{choice(
-    406, "Mode: 0 check, 1 optimise locations, 2 optimise locations and directions, 3 zeros too", 0,
-    3, 0)};
-constexpr std::array k451End{kTouchesOfSphere, kPresetAtSphere, kBacklashAngle};
-constexpr auto k451Parameters = join(join(k451Mode, kSphereApproach), join(kRotaryAxes, k451End));
+// The parameters and results that cycles 451 to 453 share.
+
+constexpr CycleParameter kTouchesOfSphere =
+    choice(423, "Number of touches around the sphere", 3, 8, 4);
+constexpr CycleParameter kPresetAtSphere = choice(
+    431, "Preset at the sphere: 0 no, 1 before, 2 after, 3 before and after measuring", 0, 3, 0);
+constexpr CycleParameter kBacklashAngle =
+    newer(angle(432, "Angle to measure the backlash with, 0 off", 3, 0));
+
+constexpr std::array kSphereApproach =
+    list(standard_radius("Exact radius of the calibration sphere"), kSetUpClearance,
+         length(408, "Retraction height before a rotary axis turns, 0 none", 0),
+         CycleParameter{.id = q(253),
+                        .meaning = "Feed for pre-positioning",
+                        .unit = Unit::Feed,
+                        .kind = ValueKind::NumberOrMax,
+                        .range = {0.0001, kLongest},
+                        .default_value = 750},
+         kFirstTouchAngle);
+
+constexpr double kLargestRotaryAngle = 359.9999;
+
+constexpr std::array kRotaryAxes =
+    list(angle(411, "Start angle of A", kLargestRotaryAngle, -90),
+         angle(412, "End angle of A", kLargestRotaryAngle, 90),
+         angle(413, "Angle of A while other axes are measured", kLargestRotaryAngle, 0),
+         choice(414, "Number of positions of A, 0: not measured", 0, 12, 0),
+         angle(415, "Start angle of B", kLargestRotaryAngle, -90),
+         angle(416, "End angle of B", kLargestRotaryAngle, 90),
+         angle(417, "Angle of B while other axes are measured", kLargestRotaryAngle, 0),
+         choice(418, "Number of positions of B, 0: not measured", 0, 12, 2),
+         angle(419, "Start angle of C", kLargestRotaryAngle, -90),
+         angle(420, "End angle of C", kLargestRotaryAngle, 90),
+         angle(421, "Angle of C while other axes are measured", kLargestRotaryAngle, 0),
+         choice(422, "Number of positions of C, 0: not measured", 0, 12, 2));
+
+/// Always in mm, in an INCH program too.
+constexpr std::array kKinematicsResults =
+    results(141, Unit::None, "Measured standard deviation of A, mm; -1 not measured",
+            "Measured standard deviation of B, mm; -1 not measured",
+            "Measured standard deviation of C, mm; -1 not measured",
+            "Optimised standard deviation of A, mm; -1 not measured",
+            "Optimised standard deviation of B, mm; -1 not measured",
+            "Optimised standard deviation of C, mm; -1 not measured", "Offset error in X, mm",
+            "Offset error in Y, mm", "Offset error in Z, mm");
+
+constexpr std::array k451Parameters = list(
+    choice(406,
+           "Mode: 0 check, 1 optimise locations, 2 optimise locations and directions, 3 zeros too",
+           0, 3, 0),
+    kSphereApproach, kRotaryAxes, kTouchesOfSphere, kPresetAtSphere, kBacklashAngle);
 
 constexpr std::array<std::string_view, 4> kModes{"0 = check", "1 = optimise locations",
                                                  "2 = optimise locations and directions",
@@ -143,7 +180,7 @@ constexpr std::array<std::string_view, 4> kModes{"0 = check", "1 = optimise loca
 /// The error of the axis that was measured last.
 Vec3 offset_error(const KinematicsMeasurement& measurement) {
   if (measurement.axes.empty()) return {};
-  const auto& location = measurement.axes.back().errors.location;
+  const auto& location = measurement.axes.back().errors.location();
   return location ? location->value : Vec3{};
 }
 
@@ -171,21 +208,18 @@ CycleResult<void> measure_axes(const CycleContext& context) {
   return preset.after(context, probing);
 }
 
-constexpr std::array k452End{kTouchesOfSphere, kBacklashAngle};
-constexpr auto k452Parameters = join(kSphereApproach, join(kRotaryAxes, k452End));
+constexpr std::array k452Parameters =
+    list(kSphereApproach, kRotaryAxes, kTouchesOfSphere, kBacklashAngle);
 
-/// Returns the place of the sphere by the corrected model with all axes at zero: the mean of the
-/// axes.
+/// Returns the place of the sphere by the corrected model, all axes at zero: the mean of the axes.
 Vec3 place_of_sphere(const KinematicsMeasurement& measurement, const MeasuringTool& tool) {
   Vec3 sum;
-  for (const AxisMeasurement& axis : measurement.axes) {
+  for (const AxisMeasurement& axis : measurement.axes)
     sum = sum + spread(axis.poses, measurement.corrected, tool).centre;
-  }
   return sum * (1 / static_cast<double>(measurement.axes.size()));
 }
 
-/// Returns the machine as seen from a tool that is `shift` further. Places on the bed do not move
-/// with it.
+/// Returns the machine as seen from a tool that is `shift` further; places on the bed stay.
 Kinematics compensated(const Kinematics& model, const Vec3& shift) {
   std::vector<RotaryAxis> axes = model.axes();
   for (RotaryAxis& axis : axes) {
@@ -197,7 +231,7 @@ Kinematics compensated(const Kinematics& model, const Vec3& shift) {
 CycleResult<void> check_complete(const KinematicsMeasurement& measurement) {
   if (measurement.axes.empty()) return nc_error(1102, "no axis is to be measured");
   for (const AxisMeasurement& axis : measurement.axes) {
-    if (axis.errors.location) continue;
+    if (axis.errors.location()) continue;
     return nc_error(
         1102,
         std::string("the positions cannot see the location of axis ").append(name(axis.plan.axis)));
@@ -225,17 +259,16 @@ CycleResult<void> compensate(const CycleContext& context) {
   return probing.retract();
 }
 
-constexpr std::array k453Mode{choice(406, "Mode: -1 delete, 0 check, 1 optimise", -1, 1, 0)};
-constexpr std::array k453End{kTouchesOfSphere, kPresetAtSphere};
-constexpr auto k453Parameters = join(join(k453Mode, kSphereApproach), k453End);
-
-constexpr std::array<CycleOutput, 6> k453Results{
-    {{141, "Measured standard deviation of A, mm; -1 no such axis", Unit::None},
-     {142, "Measured standard deviation of B, mm; -1 no such axis", Unit::None},
-     {143, "Measured standard deviation of C, mm; -1 no such axis", Unit::None},
-     {144, "Optimised standard deviation of A, mm; -1 no such axis", Unit::None},
-     {145, "Optimised standard deviation of B, mm; -1 no such axis", Unit::None},
-     {146, "Optimised standard deviation of C, mm; -1 no such axis", Unit::None}}};
+constexpr std::array k453Parameters =
+    list(choice(406, "Mode: -1 delete, 0 check, 1 optimise", -1, 1, 0), kSphereApproach,
+         kTouchesOfSphere, kPresetAtSphere);
+constexpr std::array k453Results =
+    results(141, Unit::None, "Measured standard deviation of A, mm; -1 no such axis",
+            "Measured standard deviation of B, mm; -1 no such axis",
+            "Measured standard deviation of C, mm; -1 no such axis",
+            "Optimised standard deviation of A, mm; -1 no such axis",
+            "Optimised standard deviation of B, mm; -1 no such axis",
+            "Optimised standard deviation of C, mm; -1 no such axis");
 
 /// Defaults in place of a machine builder's: five positions over the range of the axis, at most
 /// half a turn to either side.
@@ -284,9 +317,8 @@ void write_results(CycleHost& host, const Grid& grid, const KinematicsFit& fit) 
 CycleResult<void> measure_grid(const CycleContext& context) {
   const int mode = context.whole(406);
   const PresetAtSphere preset(context.whole(431));
-  if (mode == -1) {
+  if (mode == -1)
     return nc_error(1097, "corrections go into the kinematic model: restore a record of cycle 450");
-  }
   const auto grid = TRY(grid_of(context.state()));
   TRY(preset.check(context));
   auto probing = TRY(KinematicsProbing::begin(context));
@@ -307,37 +339,34 @@ CycleResult<void> measure_grid(const CycleContext& context) {
 }
 
 constexpr TouchProbeCycle kCycles[] = {
-    cycle(
-        450, "SAVE KINEMATICS", CycleKind::Kinematics, k450Parameters, {}, {1011, 1017, 1096, 1097},
-        manage_kinematics,
-        "All modes, with a number (Q409) or a name of up to 16 characters (QS409). Up to 16 "
-        "records in TNC:\\table\\DATA450.KD, which, as all that a run writes, stays in the run "
-        "unless it is put on the control's disk. The log TCHPR450.html has every axis, before and "
-        "after restoring; the status is its list of records."),
+    cycle(450, "SAVE KINEMATICS", CycleKind::Kinematics, k450Parameters, {},
+          {1011, 1017, 1096, 1097}, manage_kinematics,
+          "All modes, with a number (Q409) or a name of up to 16 characters (QS409). Up to 16 "
+          "records in TNC:\\table\\DATA450.KD, which, as all that a run writes, stays in the run "
+          "unless it is put on the control's disk. The log TCHPR450.html has every axis, before "
+          "and after restoring; the status is its list of records."),
 
-    cycle(
-        451, "MEASURE KINEMATICS", CycleKind::Kinematics, k451Parameters, kKinematicsResults,
-        errors::kTouching | errors::kKinematics | ErrorSet{1005, 1085}, measure_axes,
-        "All parameters, against the calibration_sphere of the setup. All measured axes are "
-        "fitted together, the others standing at their incidence. Q406 = 1 corrects the location "
-        "of each measured axis in the kinematic model, 2 its direction too; 0 says what 2 would "
-        "correct. 3 corrects the zeros besides: what a measured axis is tilted by around the "
-        "measured axis that carries it is that axis' zero (a C that leans around A shows where A "
-        "0 really stands), and the preset is to be set anew (Q431). The zero of the axis next to "
-        "the sphere or to the tool shows in no position: it belongs to the preset or to the "
-        "probe. "
-        "An error below twice its uncertainty is not corrected: 1102 when nothing is "
-        "left to correct, or a note with insignificant_corrections of the setup. Beyond its "
-        "max_modification_mm the cycle stops for NC Start before it corrects. Q408 = 0 needs the "
-        "option of TCPM (tcpm_option): the probe then circles the sphere. A reference is measured "
-        "at 0 degrees of each axis. Q141 to Q146 are the root mean square of the errors in space, "
-        "with one position beside the reference its error; Q144 to Q146 are what the next check "
-        "finds. Q147 to Q149 are the location error of the axis measured last, real minus "
-        "modelled. What the positions cannot see is not corrected, and the log says so; nor can "
-        "they tell what another axis has come to rest with from a location error. The axes end at "
-        "0. An axis of strobe_rotary_axes stands at 0 before the start, gets its targets in Q120 "
-        "to Q122 for its M function and has no backlash measured. Backlash is measured, never "
-        "compensated. The log TCHPR451.html."),
+    cycle(451, "MEASURE KINEMATICS", CycleKind::Kinematics, k451Parameters, kKinematicsResults,
+          errors::kTouching | errors::kKinematics | ErrorSet{1005, 1085}, measure_axes,
+          "All parameters, against the calibration_sphere of the setup. All measured axes are "
+          "fitted together, the others standing at their incidence. Q406 = 1 corrects the location "
+          "of each measured axis in the kinematic model, 2 its direction too; 0 says what 2 would "
+          "correct. 3 corrects the zeros besides: what a measured axis is tilted by around the "
+          "measured axis that carries it is that axis' zero (a C that leans around A shows where A "
+          "0 really stands), and the preset is to be set anew (Q431). The zero of the axis next to "
+          "the sphere or to the tool shows in no position: it belongs to the preset or to the "
+          "probe. An error below twice its uncertainty is not corrected: 1102 when nothing is left "
+          "to correct, or a note with insignificant_corrections of the setup. Beyond its "
+          "max_modification_mm the cycle stops for NC Start before it corrects. Q408 = 0 needs the "
+          "option of TCPM (tcpm_option): the probe then circles the sphere. A reference is "
+          "measured at 0 degrees of each axis. Q141 to Q146 are the root mean square of the errors "
+          "in space, with one position beside the reference its error; Q144 to Q146 are what the "
+          "next check finds. Q147 to Q149 are the location error of the axis measured last, real "
+          "minus modelled. What the positions cannot see is not corrected, and the log says so; "
+          "nor can they tell what another axis has come to rest with from a location error. The "
+          "axes end at 0. An axis of strobe_rotary_axes stands at 0 before the start, gets its "
+          "targets in Q120 to Q122 for its M function and has no backlash measured. Backlash is "
+          "measured, never compensated. The log TCHPR451.html."),
     cycle(452, "PRESET COMPENSATION", CycleKind::Kinematics, k452Parameters, kKinematicsResults,
           errors::kTouching | errors::kKinematics | ErrorSet{1005}, compensate,
           "All parameters. Measures as 451 and corrects the location of each measured axis; then "

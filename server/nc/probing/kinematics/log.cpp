@@ -1,8 +1,7 @@
-#include "nc/probing/kinematics/log.hpp"
+#include "nc/probing/kinematics/measurement.hpp"
 
 #include "log_templates.hpp"
 #include "nc/probing/log/measuring_log.hpp"
-#include "nc/probing/measured_value.hpp"
 
 namespace fitgauge::probing {
 namespace {
@@ -55,11 +54,11 @@ Valuation valuation_of(double number) {
 
 /// Writes what the positions can determine.
 std::string judged(const AxisErrors& errors, bool directions) {
-  if (!errors.location) return parts::no_location;
+  if (!errors.location()) return parts::no_location;
   const auto [style, words] = valuation_of(errors.valuation);
   std::string html = fmt::format(parts::valuation, "style"_a = style, "words"_a = words,
                                  "number"_a = errors.valuation);
-  if (directions && !errors.tilt_deg) html += parts::no_direction;
+  if (directions && !errors[ErrorKind::Direction]) html += parts::no_direction;
   return html;
 }
 
@@ -77,17 +76,15 @@ std::string error_rows(std::string_view label, std::string_view what, const Foun
 }
 
 std::string error_rows(const AxisErrors& errors) {
+  constexpr std::string_view kKinds[][2] = {
+      {"Location error", "the location error"},
+      {"Direction error, turned around the axes, in degrees", "the direction error"},
+      {"Error of the zero, turned around the axes, in degrees", "the error of the zero"}};
   std::string html;
-  if (errors.location) {
-    html += error_rows("Location error", "the location error", *errors.location, mm);
-  }
-  if (errors.tilt_deg) {
-    html += error_rows("Direction error, turned around the axes, in degrees", "the direction error",
-                       *errors.tilt_deg, degrees);
-  }
-  if (errors.zero_deg) {
-    html += error_rows("Error of the zero, turned around the axes, in degrees",
-                       "the error of the zero", *errors.zero_deg, degrees);
+  for (std::size_t kind = 0; kind < errors.found.size(); ++kind) {
+    const auto& [label, what] = kKinds[kind];
+    if (const auto& found = errors.found[kind])
+      html += error_rows(label, what, *found, kind == 0 ? mm : degrees);
   }
   return html;
 }
@@ -95,9 +92,8 @@ std::string error_rows(const AxisErrors& errors) {
 std::string deviation_rows(const Spread& before, const Spread& after) {
   const std::string old_value = mm(before.deviation);
   const std::string new_value = mm(after.deviation);
-  if (before.errors.size() < 3) {
+  if (before.errors.size() < 3)
     return fmt::format(parts::deviation_of_position, "before"_a = old_value, "after"_a = new_value);
-  }
   return fmt::format(parts::dispersion, "before"_a = old_value, "after"_a = new_value);
 }
 
@@ -141,9 +137,8 @@ CycleResult<void> add(const CycleContext& context, std::string_view mode,
 CycleResult<void> log_kinematics(const CycleContext& context, const KinematicsReport& report) {
   std::string html;
   if (report.measurement.axes.empty()) html += parts::no_axis;
-  for (const AxisMeasurement& axis : report.measurement.axes) {
+  for (const AxisMeasurement& axis : report.measurement.axes)
     html += axis_text(axis, report.directions);
-  }
   if (report.shift) html += fmt::format(parts::shift, "shift"_a = components(*report.shift, mm));
   return add(context, report.mode, html);
 }

@@ -8,8 +8,7 @@ namespace {
 
 using machine::Axis;
 
-/// Angles of a block and of a grid in whole billionths of a degree, in which steps and ties are
-/// exact.
+/// Angles of a block and of a grid in whole billionths of a degree, so steps and ties are exact.
 std::int64_t whole(double degrees) { return std::llround(degrees / tolerance::kSameAngle); }
 
 /// Returns the multiple of the grid that is nearest to numerator / denominator; of two equally near
@@ -26,8 +25,8 @@ double on_grid(double position, double grid) {
 
 CycleResult<void> check_range(Axis axis, double position, const machine::AxisRange& range) {
   if (position >= range.min && position <= range.max) return {};
-  return nc_error(1101, fmt::format("{}{:+.4f} is outside {} to {}", name(axis), position,
-                                    range.min, range.max));
+  return nc_error(1101, "{}{:+.4f} is outside {} to {}", name(axis), position, range.min,
+                  range.max);
 }
 
 /// Checks the places where the axis will be: its positions, 0, its incidence.
@@ -110,6 +109,51 @@ void evaluate(KinematicsMeasurement& measurement, const Kinematics& active,
   measurement.is_corrected = fit.is_corrected;
 }
 
+/// Returns `location of axis C (0.0012 mm, twice its uncertainty 0.0300 mm)` for the first
+/// insignificant value; of an axis, its location is sufficient.
+std::string insignificant(const AxisErrors& errors) {
+  constexpr std::array<std::string_view, 3> kNames{"location", "direction", "zero"};
+  for (std::size_t kind = 0; kind < kNames.size(); ++kind) {
+    const auto& found = errors.found[kind];
+    if (!found || found->is_significant) continue;
+    return fmt::format("{} of axis {} ({:.4f} mm{}, twice its uncertainty {:.4f} mm)", kNames[kind],
+                       name(errors.axis), found->size, kind == 0 ? "" : " at 100 mm",
+                       2 * found->standard_uncertainty);
+  }
+  return {};
+}
+
+std::string insignificant(std::span<const AxisErrors> errors) {
+  std::string all;
+  for (const AxisErrors& axis : errors) {
+    if (axis.is_significant()) continue;
+    all += (all.empty() ? "" : ", ") + insignificant(axis);
+  }
+  return all;
+}
+
+double largest_location(std::span<const AxisErrors> errors) {
+  double largest = 0;
+  for (const AxisErrors& axis : errors) {
+    if (axis.location()) largest = std::max(largest, axis.location()->size);
+  }
+  return largest;
+}
+
+using machine::MachineState;
+using machine::Preset;
+
+CycleResult<void> set_preset(const CycleContext& context, KinematicsProbing& probing) {
+  const auto reference = TRY(probing.measure({}));
+  const MachineState& state = context.state();
+  const Vec3 centre = on_table(reference, state.kinematics, probing.tool());
+  Preset row = state.preset_row(state.active_preset);
+  row.frame.origin = {to_length(centre.x).to_mm(), to_length(centre.y).to_mm(),
+                      to_length(centre.z).to_mm()};
+  TRY(context.machine.write_preset(row));
+  return context.machine.activate_preset(row.number);
+}
+
 }  // namespace
 
 std::vector<double> measuring_positions(double start, double end, int points, double grid) {
@@ -142,9 +186,10 @@ CycleResult<std::vector<AxisPlan>> plan_positions(const Arguments& arguments,
     std::erase_if(plan.positions, [](double p) { return std::abs(p) < tolerance::kSameAngle; });
     plan.strobed = state.kinematics_options.strobed[index(axis) - 3];
     if (plan.strobed && state.nose[axis] != 0) {
-      return nc_error(1005, fmt::format("{} is positioned by an M function and stands at {:+.4f}: "
-                                        "turn it to 0 before the cycle",
-                                        name(axis), state.nose[axis]));
+      return nc_error(1005,
+                      "{} is positioned by an M function and stands at {:+.4f}: "
+                      "turn it to 0 before the cycle",
+                      name(axis), state.nose[axis]);
     }
     TRY(check_reach(plan, arguments.number_or(432, 0), *range));
     plans.push_back(std::move(plan));
@@ -201,6 +246,53 @@ void write_kinematics_results(CycleHost& host, const KinematicsMeasurement& meas
     host.set_q(number(144), after[k], Unit::None);
     host.set_q(number(147), to_length(errors[k]).to_mm(), Unit::None);
   }
+}
+
+FitOptions fit_options(const CycleContext& context, bool directions) {
+  return {.directions = directions,
+          .only_significant = !context.state().kinematics_options.notes_insignificant};
+}
+
+CycleResult<void> correct_kinematics(const CycleContext& context,
+                                     std::span<const AxisErrors> errors, bool is_corrected,
+                                     const machine::Kinematics& corrected) {
+  const machine::KinematicsOptions& options = context.state().kinematics_options;
+  if (const std::string small = insignificant(errors); !small.empty()) {
+    if (!is_corrected) return nc_error(1102, small + ": measure a larger range or more positions");
+    const std::string_view taken = options.notes_insignificant ? "corrected" : "not corrected";
+    TRY(context.host.note(
+        fmt::format("cycle {}: {}: {}", context.descriptor().number, taken, small)));
+  }
+  if (!is_corrected) return {};
+  const double largest = largest_location(errors);
+  if (options.max_modification && largest > *options.max_modification) {
+    const auto confirmed = TRY(context.host.confirm(
+        fmt::format("the kinematics change by {:.4f} mm, more than max_modification_mm ({} mm)",
+                    largest, *options.max_modification)));
+    if (!confirmed) return {};
+  }
+  return context.machine.set_kinematics(corrected);
+}
+
+CycleResult<void> PresetAtSphere::check(const CycleContext& context) const {
+  const MachineState& state = context.state();
+  const Preset* row = state.presets.find(state.active_preset);
+  if ((!sets_before_ && !sets_after_) || row == nullptr || !row->locked) return {};
+  return make_fault(machine::FaultKind::PresetLocked,
+                                 fmt::format("the active preset {}", row->number));
+}
+
+CycleResult<void> PresetAtSphere::before(const CycleContext& context,
+                                         KinematicsProbing& probing) const {
+  if (!sets_before_) return {};
+  TRY(probing.find());
+  return set_preset(context, probing);
+}
+
+CycleResult<void> PresetAtSphere::after(const CycleContext& context,
+                                        KinematicsProbing& probing) const {
+  auto done = sets_after_ ? set_preset(context, probing) : probing.turn({});
+  return done ? probing.retract() : done;
 }
 
 }  // namespace fitgauge::probing

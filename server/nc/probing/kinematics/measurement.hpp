@@ -1,7 +1,5 @@
 #pragma once
 
-#include "nc/machine/machine_state.hpp"
-#include "nc/probing/arguments.hpp"
 #include "nc/probing/kinematics/probing.hpp"
 
 namespace fitgauge::probing {
@@ -63,5 +61,53 @@ CycleResult<KinematicsMeasurement> measure_kinematics(const CycleContext& contex
 /// Q141 to Q149, always in mm; -1 for axes that were not measured.
 void write_kinematics_results(CycleHost& host, const KinematicsMeasurement& measurement,
                               const Vec3& offset);
+
+/// Corrections that the machine allows: with insignificant_corrections "note" all of them.
+FitOptions fit_options(const CycleContext& context, bool directions);
+
+/// Applies the corrected model to the machine, if there are corrections, and notes the omitted
+/// ones. A correction beyond max_modification_mm waits for NC Start; if a stop ends the run nothing
+/// is corrected.
+/// @errors 1102 errors were found, and none of them is at least twice its uncertainty.
+CycleResult<void> correct_kinematics(const CycleContext& context,
+                                     std::span<const AxisErrors> errors, bool is_corrected,
+                                     const machine::Kinematics& corrected);
+
+/// Q431: whether the active preset is set into the centre of the sphere before measuring, after it,
+/// or both. Its zero then is the centre with all rotary axes at 0.
+class PresetAtSphere {
+ public:
+  explicit PresetAtSphere(int q431)
+      : sets_before_(q431 == 1 || q431 == 3), sets_after_(q431 >= 2) {}
+
+  /// @errors 1085 the preset that is to be set is write-protected.
+  CycleResult<void> check(const CycleContext& context) const;
+  /// Finds the sphere below the probe and sets the preset, if that is asked for.
+  CycleResult<void> before(const CycleContext& context, KinematicsProbing& probing) const;
+  /// Turns all axes to 0, sets the preset if that is asked for, and retracts.
+  CycleResult<void> after(const CycleContext& context, KinematicsProbing& probing) const;
+
+ private:
+  bool sets_before_;
+  bool sets_after_;
+};
+
+/// The content of a log of kinematics.
+struct KinematicsReport {
+  std::string_view mode;  ///< in words
+  const KinematicsMeasurement& measurement;
+  bool directions = false;      ///< were asked for
+  std::optional<Vec3> shift{};  ///< of the preset, in mm, that was compensated
+};
+
+/// Adds a measurement to TCHPR451.html (with the cycle's number) in the program's folder: for each
+/// axis its positions with errors before and after, standard deviations, results and undetermined
+/// values. Lengths in mm, also in an INCH program.
+/// @errors if the run's output budget is used up.
+CycleResult<void> log_kinematics(const CycleContext& context, const KinematicsReport& report);
+
+/// Writes the log of axes that were measured together.
+CycleResult<void> log_grid(const CycleContext& context, std::string_view mode,
+                           std::span<const SpherePose> poses, const KinematicsFit& fit);
 
 }  // namespace fitgauge::probing

@@ -39,9 +39,8 @@ CycleResult<void> check_retraction(const Arguments& arguments, const MachineStat
   }
   for (const Axis axis : kRotary) {
     const auto& range = state.ranges[index(axis)];
-    if (range && range->hirth_grid_deg > 0) {
+    if (range && range->hirth_grid_deg > 0)
       return nc_error(1082, "Q408 = 0 is not allowed with Hirth axes");
-    }
   }
   return {};
 }
@@ -98,9 +97,8 @@ Vec3 KinematicsProbing::around(double angle_deg) const {
 
 CycleResult<void> KinematicsProbing::move(const AxisWords& words, const Feed& feed) {
   const auto moved = context_.machine.move({words, feed, CoordinateSystem::Machine});
-  if (!moved && moved.error().kind == machine::FaultKind::AxisLimit) {
+  if (!moved && moved.error().kind == machine::FaultKind::AxisLimit)
     return nc_error(1101, moved.error().text);
-  }
   return moved;
 }
 
@@ -125,11 +123,11 @@ CycleResult<void> KinematicsProbing::go_over(const Vec3& sphere) {
 
 CycleResult<Vec3> KinematicsProbing::touch(const Vec3& direction) {
   const auto contact = TRY(context_.machine.probe({.direction = direction,
-                                                   .distance = probe_.data.distance,
-                                                   .feed = probe_.data.feed,
-                                                   .system = CoordinateSystem::Machine,
-                                                   .retract = std::nullopt,
-                                                   .retract_feed = feed()}));
+                                                        .distance = probe_.data.distance,
+                                                        .feed = probe_.data.feed,
+                                                        .system = CoordinateSystem::Machine,
+                                                        .retract = std::nullopt,
+                                                        .retract_feed = feed()}));
   publish_touch(state(), context_.host, contact);
   return contact.tip_machine + tool_direction() * probe_.radius;
 }
@@ -161,9 +159,9 @@ CycleResult<Vec3> KinematicsProbing::measure_sphere(const Vec3& sphere) {
   const double largest = state().kinematics_options.max_ball_deviation;
   if (std::abs(radius - wanted) > largest) {
     return nc_error(1072,
-                    fmt::format("the calibration sphere has a radius of {:.4f} mm, not {} mm; "
-                                "max_calibration_ball_deviation_mm is {} mm",
-                                radius, wanted, largest));
+                    "the calibration sphere has a radius of {:.4f} mm, not {} mm; "
+                    "max_calibration_ball_deviation_mm is {} mm",
+                    radius, wanted, largest);
   }
   return fitted->centre;
 }

@@ -1,7 +1,6 @@
 #include "nc/probing/log/measuring_log.hpp"
 
 #include "log_templates.hpp"
-#include "nc/probing/touch_probe_cycle.hpp"
 
 namespace fitgauge::probing {
 namespace {
@@ -63,9 +62,8 @@ std::string MeasuringLog::finish() && {
 void add_values(MeasuringLog& log, std::span<const MeasuredValue> values) {
   log.section("Nominal values");
   for (const auto& value : values) log.length(value.characteristic, value.nominal);
-  if (std::ranges::any_of(values, [](const auto& value) { return value.limits.has_value(); })) {
+  if (std::ranges::any_of(values, [](const auto& value) { return value.limits.has_value(); }))
     log.section("Limits");
-  }
   for (const auto& value : values) {
     if (!value.limits) continue;
     log.length(fmt::format("{}, maximum", value.characteristic), value.limits->upper);
@@ -81,9 +79,8 @@ CycleResult<void> deliver_log(const CycleContext& context, MeasuringLog log) {
   const int where = context.whole(281);
   if (where == 0) return {};
   const std::string text = std::move(log).finish();
-  if (where == 1) {
+  if (where == 1)
     return context.host.append_log(fmt::format("TCHPR{}.TXT", context.descriptor().number), text);
-  }
   if (context.host.memory().fast_probing.interrupts) context.host.show_and_stop(text);
   return {};
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "nc/probing/cycle_host.hpp"
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/touch_probe_cycle.hpp"
 

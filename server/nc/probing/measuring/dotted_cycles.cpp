@@ -1,8 +1,6 @@
 #include "nc/probing/cycles.hpp"
-#include "nc/probing/measured_value.hpp"
 #include "nc/probing/measuring/measurement.hpp"
 #include "nc/probing/parameters.hpp"
-#include "nc/probing/touch/probing_motion.hpp"
 
 namespace fitgauge::probing::dotted_cycles {
 
@@ -10,44 +8,28 @@ using machine::FaultKind;
 using namespace parameter;
 
 constexpr CycleParameter pre_position(std::uint8_t part, ParameterId axis) {
-  return in_part(part, {.id = axis,
-                        .meaning = "Position before probing",
-                        .unit = Unit::Length,
-                        .range = {-kLongest, kLongest},
-                        .required = false});
+  return in_part(part, optional(coordinate(axis, "Position before probing")));
 }
+constexpr CycleParameter kWordAxis =
+    choice(ParameterId::WordAxis, "Probing axis: 0 X, 1 Y, 2 Z", 0, 2);
+constexpr CycleParameter kWordDirection =
+    choice(ParameterId::WordDirection, "Probing direction: -1 or +1", -1, 1);
+constexpr CycleParameter kWordAngle =
+    angle(ParameterId::WordAngle, "Probing angle from the axis", 360, 0);
 
-constexpr CycleParameter kWordAxis{.id = ParameterId::WordAxis,
-                                   .meaning = "Probing axis: 0 X, 1 Y, 2 Z",
-                                   .kind = ValueKind::Whole,
-                                   .range = {0, 2}};
-constexpr CycleParameter kWordDirection{.id = ParameterId::WordDirection,
-                                        .meaning = "Probing direction: -1 or +1",
-                                        .kind = ValueKind::Whole,
-                                        .range = {-1, 1}};
-constexpr CycleParameter kWordAngle{.id = ParameterId::WordAngle,
-                                    .meaning = "Probing angle from the axis",
-                                    .unit = Unit::Angle,
-                                    .range = {-360, 360},
-                                    .default_value = 0};
+constexpr std::array kTouchResults =
+    list(results(115, Unit::Length, "Spindle position X at contact",
+                 "Spindle position Y at contact", "Spindle position Z at contact"),
+         results(118, Unit::Angle, "Fourth axis at contact", "Fifth axis at contact"));
 
-constexpr std::array<CycleOutput, 5> kTouchResults{
-    {{115, "Spindle position X at contact", Unit::Length},
-     {116, "Spindle position Y at contact", Unit::Length},
-     {117, "Spindle position Z at contact", Unit::Length},
-     {118, "Fourth axis at contact", Unit::Angle},
-     {119, "Fifth axis at contact", Unit::Angle}}};
+constexpr std::array k0Parameters =
+    list(result_parameter(0), in_part(0, kWordAxis), in_part(0, kWordDirection),
+         pre_position(1, ParameterId::WordX), pre_position(1, ParameterId::WordY),
+         pre_position(1, ParameterId::WordZ));
 
-constexpr std::array k0Parameters{result_parameter(0),
-                                  in_part(0, kWordAxis),
-                                  in_part(0, kWordDirection),
-                                  pre_position(1, ParameterId::WordX),
-                                  pre_position(1, ParameterId::WordY),
-                                  pre_position(1, ParameterId::WordZ)};
-
-constexpr std::array k1Parameters{
-    in_part(1, kWordAxis), in_part(1, kWordAngle), pre_position(2, ParameterId::WordX),
-    pre_position(2, ParameterId::WordY), pre_position(2, ParameterId::WordZ)};
+constexpr std::array k1Parameters =
+    list(in_part(1, kWordAxis), in_part(1, kWordAngle), pre_position(2, ParameterId::WordX),
+         pre_position(2, ParameterId::WordY), pre_position(2, ParameterId::WordZ));
 
 /// The direction of ANGLE from the named axis towards the next one: X to Y, Y to Z, Z to X, as the
 /// control counts angles in the planes XY, YZ and ZX.
@@ -72,6 +54,10 @@ CycleResult<Contact> touch_from_position(const CycleContext& context, const Vec3
   return motion.probe(motion.plane().from_input(direction));
 }
 
+std::uint16_t result_of(const Arguments& arguments) {
+  return static_cast<std::uint16_t>(arguments.number(ParameterId::WordResult));
+}
+
 CycleResult<void> reference_plane(const CycleContext& context) {
   const double sign = context.number(ParameterId::WordDirection);
   if (sign == 0) return nc_error(1042, "the sign of the probing direction is missing");
@@ -79,8 +65,7 @@ CycleResult<void> reference_plane(const CycleContext& context) {
   const auto contact = TRY(touch_from_position(context, unit_vector(axis) * sign));
   const WorkingPlane plane = WorkingPlane::across(context.state().tool_axis());
   const double coordinate = plane.to_input(contact.surface)[index(axis)];
-  set_length(context.host, static_cast<std::uint16_t>(context.number(ParameterId::WordResult)),
-             coordinate);
+  set_lengths(context.host, result_of(context), {coordinate});
   return {};
 }
 
@@ -91,43 +76,23 @@ CycleResult<void> polar(const CycleContext& context) {
 
 constexpr double kLastResult = 1996;  ///< four parameters follow each other
 
-constexpr CycleParameter kDistance{.id = ParameterId::WordDistance,
-                                   .meaning = "Longest travel",
-                                   .unit = Unit::Length,
-                                   .range = {0, kLongest},
-                                   .part = 3};
-constexpr CycleParameter kFeed{.id = ParameterId::WordFeed,
-                               .meaning = "Probing feed, else that of the probe table",
-                               .unit = Unit::Feed,
-                               .range = {0, kLongest},
-                               .required = false,
-                               .part = 3};
-constexpr CycleParameter kRetract{.id = ParameterId::WordRetract,
-                                  .meaning = "Way back after contact, at most to the start",
-                                  .unit = Unit::Length,
-                                  .range = {0, kLongest},
-                                  .required = false,
-                                  .part = 3};
-constexpr CycleParameter kReferenceSystem{.id = ParameterId::WordReferenceSystem,
-                                          .meaning = "Results: 0 active system, 1 machine system",
-                                          .kind = ValueKind::Whole,
-                                          .range = {0, 1},
-                                          .default_value = 0,
-                                          .part = 3};
+/// The sub-lines 3 of cycles 3 and 4.
+constexpr std::array kTouch{
+    in_part(3, length(ParameterId::WordDistance, "Longest travel")),
+    CycleParameter{.id = ParameterId::WordFeed,
+                   .meaning = "Probing feed, else that of the probe table",
+                   .unit = Unit::Feed,
+                   .range = {0, kLongest},
+                   .required = false,
+                   .part = 3},
+    in_part(3, optional(length(ParameterId::WordRetract,
+                               "Way back after contact, at most to the start"))),
+    in_part(3, choice(ParameterId::WordReferenceSystem,
+                      "Results: 0 active system, 1 machine system", 0, 1, 0))};
 
-constexpr std::array k3Parameters{result_parameter(1, kLastResult),
-                                  in_part(2, kWordAxis),
-                                  in_part(2, kWordAngle),
-                                  kDistance,
-                                  kFeed,
-                                  kRetract,
-                                  kReferenceSystem,
-                                  CycleParameter{.id = ParameterId::WordErrorMode,
-                                                 .meaning = "Without contact: 0 stop, 1 go on",
-                                                 .kind = ValueKind::Whole,
-                                                 .range = {0, 1},
-                                                 .default_value = 0,
-                                                 .part = 4}};
+constexpr std::array k3Parameters = list(
+    result_parameter(1, kLastResult), in_part(2, kWordAxis), in_part(2, kWordAngle), kTouch,
+    in_part(4, choice(ParameterId::WordErrorMode, "Without contact: 0 stop, 1 go on", 0, 1, 0)));
 
 constexpr CycleParameter direction(ParameterId axis) {
   return {.id = axis,
@@ -137,14 +102,9 @@ constexpr CycleParameter direction(ParameterId axis) {
           .part = 2};
 }
 
-constexpr std::array k4Parameters{result_parameter(1, kLastResult),
-                                  direction(ParameterId::WordX),
-                                  direction(ParameterId::WordY),
-                                  direction(ParameterId::WordZ),
-                                  kDistance,
-                                  kFeed,
-                                  kRetract,
-                                  kReferenceSystem};
+constexpr std::array k4Parameters =
+    list(result_parameter(1, kLastResult), direction(ParameterId::WordX),
+         direction(ParameterId::WordY), direction(ParameterId::WordZ), kTouch);
 
 machine::ProbeMove probe_move(const Arguments& arguments, const Vec3& direction,
                               const machine::ProbeRow& probe) {
@@ -153,12 +113,10 @@ machine::ProbeMove probe_move(const Arguments& arguments, const Vec3& direction,
                           .feed = probe.feed,
                           .retract = std::nullopt,
                           .retract_feed = machine::Feed::rapid(probe.rapid)};
-  if (arguments.has_number(ParameterId::WordFeed)) {
+  if (arguments.has_number(ParameterId::WordFeed))
     move.feed = arguments.number(ParameterId::WordFeed);
-  }
-  if (arguments.has_number(ParameterId::WordRetract)) {
+  if (arguments.has_number(ParameterId::WordRetract))
     move.retract = arguments.number(ParameterId::WordRetract);
-  }
   return move;
 }
 
@@ -167,7 +125,7 @@ machine::ProbeMove probe_move(const Arguments& arguments, const Vec3& direction,
 CycleResult<void> measure(const CycleContext& context, const Vec3& direction, bool goes_on) {
   TRY(ProbingMotion::begin(context));
   const auto probe = context.state().probe_system();
-  const auto first = static_cast<std::uint16_t>(context.number(ParameterId::WordResult));
+  const std::uint16_t first = result_of(context);
   const auto fourth = static_cast<std::uint16_t>(first + 3);
   const auto contact = context.machine.probe(probe_move(context, direction, probe->data));
   if (!contact) {
@@ -180,10 +138,7 @@ CycleResult<void> measure(const CycleContext& context, const Vec3& direction, bo
   publish_touch(context.state(), context.host, *contact);
   const bool in_machine = context.number(ParameterId::WordReferenceSystem) == 1;
   const Vec3& position = in_machine ? contact->nose.linear : contact->tip;
-  for (std::uint16_t axis = 0; axis < 3; ++axis) {
-    context.host.set_q(static_cast<std::uint16_t>(first + axis), to_length(position[axis]).to_mm(),
-                       Unit::Length);
-  }
+  set_lengths(context.host, first, {position.x, position.y, position.z});
   context.host.set_q(fourth, 0, Unit::None);
   return {};
 }

@@ -1,6 +1,5 @@
 #include "nc/probing/measuring/measurement.hpp"
 
-#include "metrology/gauging/gauge.hpp"
 #include "nc/probing/alignment/rotation.hpp"
 #include "nc/probing/log/measuring_log.hpp"
 
@@ -23,7 +22,7 @@ CycleResult<const Tool*> named_tool(const CycleContext& context) {
     if (number == std::nearbyint(number)) found = tools.find(static_cast<int>(number));
     said = fmt::format("{}", number);
   }
-  if (found == nullptr) return nc_error(1092, fmt::format("Q330 names tool {}", said));
+  if (found == nullptr) return nc_error(1092, "Q330 names tool {}", said);
   return found;
 }
 
@@ -61,9 +60,8 @@ void add_short_arc(MeasuringLog& log, const std::optional<Form>& form) {
 void publish(CycleHost& host, std::span<const MeasuredValue> values) {
   for (const MeasuredValue& value : values) {
     if (value.result_q != 0) host.set_q(value.result_q, value.measured.to_mm(), Unit::Length);
-    if (value.deviation_q != 0) {
+    if (value.deviation_q != 0)
       host.set_q(value.deviation_q, value.deviation().to_mm(), Unit::Length);
-    }
   }
 }
 
@@ -117,15 +115,14 @@ CycleResult<void> correct_tool(const CycleContext& context, const ToolCorrection
   tool.locked = tool.locked || broken;
   TRY(context.machine.write_tool(tool));
   if (!broken) return {};
-  return nc_error(1065, fmt::format("deviation {} mm, tool {} is locked",
-                                    format_mm(correction.deviation), tool.number));
+  return nc_error(1065, "deviation {} mm, tool {} is locked", format_mm(correction.deviation),
+                  tool.number);
 }
 
 CycleResult<ProbingMotion> begin_measurement(const CycleContext& context) {
   const Vec3& factor = context.state().frames.scaling().factor;
-  if (factor.x != factor.y || factor.y != factor.z) {
+  if (factor.x != factor.y || factor.y != factor.z)
     return nc_error(1108, "reset cycle 26 before measuring");
-  }
   if (has_status(context.descriptor())) set_status(context.host, std::nullopt);
   TRY(begin_without_rotation(context));
   return ProbingMotion::begin(context);
@@ -138,11 +135,9 @@ CycleResult<void> finish_measurement(const CycleContext& context, const Measurem
   set_status(host, decisive.verdict());
   MeasuringLog log(context.descriptor(), host);
   add_values(log, measurement.values);
-  if (measurement.measuring_height) {
-    log.section("Further results");
-    log.length("Measuring height", *measurement.measuring_height);
-    add_short_arc(log, measurement.form);
-  }
+  log.section("Further results");
+  log.length("Measuring height", to_length(context.number(261)));
+  add_short_arc(log, measurement.form);
   TRY(deliver_log(context, std::move(log)));
   const MeasuringRecord record = record_of(context, measurement);
   for (const MeasuredSize& size : record.sizes) {
@@ -152,7 +147,7 @@ CycleResult<void> finish_measurement(const CycleContext& context, const Measurem
         fmt::format("the minimum of \"{}\" is 0: no size is too small", size.characteristic)));
   }
   host.record(record);
-  if (measurement.correction) TRY(correct_tool(context, *measurement.correction));
+  TRY(correct_tool(context, measurement.correction));
   const int error = decisive.error();
   if (context.whole(309) != 0 && error != 0) return tolerance_stop(error);
   return {};

@@ -2,8 +2,6 @@
 
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
-#include "nc/probing/touch/probing_motion.hpp"
-#include "nc/probing/touch_probe_cycle.hpp"
 
 namespace fitgauge::probing {
 
@@ -35,8 +33,7 @@ CycleResult<void> correct_tool(const CycleContext& context, const ToolCorrection
 /// The result of a measuring cycle with status; the values in the order of the log.
 struct Measurement {
   std::vector<MeasuredValue> values;
-  std::optional<Length> measuring_height{};  ///< Q261, the last line of the log
-  std::optional<ToolCorrection> correction{};
+  ToolCorrection correction{};
   std::optional<Form> form{};
 };
 

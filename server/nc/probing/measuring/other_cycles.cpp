@@ -9,9 +9,9 @@ namespace fitgauge::probing::other_cycles {
 using machine::Matrix3;
 using namespace parameter;
 
-constexpr std::array k420Parameters = join(line(kMeasuringAxis), std::array{kMeasuringLog});
+constexpr std::array k420Parameters = list(line(kMeasuringAxis), kMeasuringLog);
 
-constexpr std::array<CycleOutput, 1> k420Results{{{150, "Measured angle", Unit::Angle}}};
+constexpr std::array k420Results = results(150, Unit::Angle, "Measured angle");
 
 CycleResult<void> measure_angle(const CycleContext& context, ProbingMotion& motion) {
   const auto edge = TRY(probe_line(context, motion));
@@ -35,27 +35,19 @@ CycleResult<void> measure_angle(const CycleContext& context, ProbingMotion& moti
   return {};
 }
 
-constexpr std::array k431Parameters{coordinate(263, "1st point, main axis"),
-                                    coordinate(264, "1st point, secondary axis"),
-                                    coordinate(294, "1st point, probe axis"),
-                                    coordinate(265, "2nd point, main axis"),
-                                    coordinate(266, "2nd point, secondary axis"),
-                                    coordinate(295, "2nd point, probe axis"),
-                                    coordinate(296, "3rd point, main axis"),
-                                    coordinate(297, "3rd point, secondary axis"),
-                                    coordinate(298, "3rd point, probe axis"),
-                                    kSetUpClearance,
-                                    kClearanceHeight,
-                                    kMeasuringLog};
+constexpr std::array k431Parameters =
+    list(coordinates(263, "1st point, main axis", "1st point, secondary axis"),
+         coordinate(294, "1st point, probe axis"),
+         coordinates(265, "2nd point, main axis", "2nd point, secondary axis"),
+         coordinates(295, "2nd point, probe axis", "3rd point, main axis",
+                     "3rd point, secondary axis", "3rd point, probe axis"),
+         kSetUpClearance, kClearanceHeight, kMeasuringLog);
 
-constexpr std::array<CycleOutput, 8> k431Results{{{158, "Projection angle A", Unit::Angle},
-                                                  {159, "Projection angle B", Unit::Angle},
-                                                  {170, "Spatial angle A", Unit::Angle},
-                                                  {171, "Spatial angle B", Unit::Angle},
-                                                  {172, "Spatial angle C", Unit::Angle},
-                                                  {173, "1st point, probe axis", Unit::Length},
-                                                  {174, "2nd point, probe axis", Unit::Length},
-                                                  {175, "3rd point, probe axis", Unit::Length}}};
+constexpr std::array k431Results =
+    list(results(158, Unit::Angle, "Projection angle A", "Projection angle B"),
+         results(170, Unit::Angle, "Spatial angle A", "Spatial angle B", "Spatial angle C"),
+         results(173, Unit::Length, "1st point, probe axis", "2nd point, probe axis",
+                 "3rd point, probe axis"));
 
 struct TiltedAxes {
   Vec3 main;
@@ -89,7 +81,7 @@ CycleResult<void> measure_plane(const CycleContext& context, ProbingMotion& moti
   std::vector<Touch> touches;
   for (const auto& [x, y, z] :
        {std::array{263, 264, 294}, std::array{265, 266, 295}, std::array{296, 297, 298}}) {
-    const Vec3 nominal{context.number(x), context.number(y), context.number(z)};
+    const Vec3 nominal = place_of(context, x, y, z);
     touches.push_back(
         {.start = nominal - back, .direction = down, .transit = Transit::ClearanceHeight});
   }
@@ -124,16 +116,16 @@ CycleResult<void> measure_plane(const CycleContext& context, ProbingMotion& moti
   return {};
 }
 
-constexpr std::array k441Parameters{
-    CycleParameter{.id = q(396),
-                   .meaning = "Positioning feed, 0: FMAX of the probe",
-                   .unit = Unit::Feed,
-                   .range = {0, kLongest},
-                   .default_value = 0},
-    choice(397, "Position with the rapid of the machine: 0 no, 1 yes", 0, 1, 0),
-    choice(399, "Angle tracking: 0 no, 1 yes", 0, 1, 1),
-    choice(400, "Automatic interruption: 0 no, 1 yes", 0, 1, 1),
-    newer(choice(371, "Reaction of the touch point", 0, 1, 0))};
+constexpr std::array k441Parameters =
+    list(CycleParameter{.id = q(396),
+                        .meaning = "Positioning feed, 0: FMAX of the probe",
+                        .unit = Unit::Feed,
+                        .range = {0, kLongest},
+                        .default_value = 0},
+         choice(397, "Position with the rapid of the machine: 0 no, 1 yes", 0, 1, 0),
+         choice(399, "Angle tracking: 0 no, 1 yes", 0, 1, 1),
+         choice(400, "Automatic interruption: 0 no, 1 yes", 0, 1, 1),
+         newer(choice(371, "Reaction of the touch point", 0, 1, 0)));
 
 CycleResult<void> set_fast_probing(const CycleContext& context) {
   FastProbing fast{.positioning_feed = std::nullopt,

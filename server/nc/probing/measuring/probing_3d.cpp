@@ -1,9 +1,7 @@
-#include "base/length.hpp"
 #include "log_templates.hpp"
 #include "nc/machine/tolerance.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/log/measuring_log.hpp"
-#include "nc/probing/measured_value.hpp"
 #include "nc/probing/object/dimension.hpp"
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
@@ -133,20 +131,14 @@ constexpr CycleParameter normal_component(int number, std::string_view meaning) 
   return {.id = q(number), .meaning = meaning, .range = {-10, 10}};
 }
 
-constexpr std::array kParameters{
-    coordinate(263, "Nominal point, main axis"),
-    coordinate(264, "Nominal point, secondary axis"),
-    coordinate(294, "Nominal point, probe axis"),
-    normal_component(581, "Surface normal, main axis"),
-    normal_component(582, "Surface normal, secondary axis"),
-    normal_component(583, "Surface normal, probe axis"),
-    kSetUpClearance,
-    kClearanceHeight,
-    CycleParameter{.id = q(kTolerance),
-                   .meaning = "Tolerance along the normal, such as \"0.4-0.1\"",
-                   .kind = ValueKind::Text,
-                   .required = false},
-    choice(309, "Stop out of tolerance: 0 no, 1 yes, 2 below the lower limit", 0, 2, 0)};
+constexpr std::array kParameters =
+    list(coordinates(263, "Nominal point, main axis", "Nominal point, secondary axis"),
+         coordinate(294, "Nominal point, probe axis"),
+         normal_component(581, "Surface normal, main axis"),
+         normal_component(582, "Surface normal, secondary axis"),
+         normal_component(583, "Surface normal, probe axis"), kSetUpClearance, kClearanceHeight,
+         tolerance_text("Tolerance along the normal, such as \"0.4-0.1\""),
+         choice(309, "Stop out of tolerance: 0 no, 1 yes, 2 below the lower limit", 0, 2, 0));
 
 constexpr std::array<CycleOutput, 8> kResults{
     {{151, "Point, main axis", Unit::Length},
@@ -178,20 +170,19 @@ CycleResult<void> check_arguments(const Arguments& arguments) {
 
 /// @pre check_arguments has accepted them.
 Vec3 surface_normal(const Arguments& arguments) {
-  const Vec3 normal{arguments.number(581), arguments.number(582), arguments.number(583)};
+  const Vec3 normal = place_of(arguments, 581, 582, 583);
   // The largest component decides, since squares of tiny ones would vanish.
   const double largest = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
   return unit(normal * (1 / largest));
 }
 
-/// Machine parameter chkTiltingAxes: in a tilted plane the tool must be perpendicular to it. Only
-/// TCPM may incline it.
+/// Machine parameter chkTiltingAxes: a tool that TCPM does not incline is square to a tilted plane.
 CycleResult<void> check_tilting_axes(const machine::MachineState& state, machine::Axis probe) {
   if (!state.frames.is_tilted() || state.modes.tcpm) return {};
   if (norm(state.tool_direction() - unit_vector(probe)) <= tolerance::kSquare) return {};
   return nc_error(1099,
-                  "the rotary axes do not stand as the tilted plane needs them; position "
-                  "them, or incline the probe with FUNCTION TCPM");
+                  "the rotary axes do not stand as the tilted plane needs them; position them, or "
+                  "incline the probe with FUNCTION TCPM");
 }
 
 /// Too much material along the normal is an outside size above its limit: rework (decision 11).
@@ -209,7 +200,7 @@ CycleResult<ProbedPoint> touch_point(const CycleContext& context,
   TRY(refuse_mirror_and_scaling(state.frames));
   auto motion = TRY(ProbingMotion::begin(context));
   TRY(check_tilting_axes(state, motion.plane().probe));
-  const Vec3 nominal{context.number(263), context.number(264), context.number(294)};
+  const Vec3 nominal = place_of(context, 263, 264, 294);
   const auto contact =
       TRY(motion.touch({.start = nominal + normal * motion.start_distance(), .direction = -normal},
                        context.number(260)));
@@ -289,11 +280,9 @@ constexpr TouchProbeCycle kCycles[] = {
           "rotary axes must stand square to it, except with TCPM. The points of a run share one "
           "log, which colours the value along the normal and each axis against its share of the "
           "tolerance. Q309 = 2 stops when the point lies below the lower limit, and without a "
-          "tolerance never. Two manuals "
-          "say below the nominal coordinate; but Q309 is the reaction to a tolerance error, and "
-          "the "
-          "same page says that "
-          "the program can be made to stop after a determined undersize."},
+          "tolerance never. Two manuals say below the nominal coordinate; but Q309 is the reaction "
+          "to a tolerance error, and the same page says that the program can be made to stop after "
+          "a determined undersize."},
      measure,
      check_arguments}};
 

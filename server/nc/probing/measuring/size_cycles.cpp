@@ -3,24 +3,22 @@
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
 #include "nc/probing/touch/line_probing.hpp"
-#include "nc/probing/touch/part_here.hpp"
-#include "nc/probing/touch/rectangle_probing.hpp"
 
 namespace fitgauge::probing::size_cycles {
 
 using namespace parameter;
 
 constexpr auto circle_parameters(int max_q, std::string_view max, int min_q, std::string_view min) {
-  return join(circle(coordinate(273, "Nominal centre, main axis"),
-                     coordinate(274, "Nominal centre, secondary axis")),
-              std::array{length(max_q, max, 0), length(min_q, min, 0), kCentreToleranceMain,
-                         kCentreToleranceSecondary, kMeasuringLog, kStopOnTolerance,
-                         kMonitoringTool, kTouches, kTraverse, kReverseTool, kAngleOfIncidence});
+  return list(
+      circle(coordinates(273, "Nominal centre, main axis", "Nominal centre, secondary axis")),
+      length(max_q, max, 0), length(min_q, min, 0), kCentreToleranceMain, kCentreToleranceSecondary,
+      kMeasuringLog, kStopOnTolerance, kMonitoringTool, kTouches, kTraverse, kReverseTool,
+      kAngleOfIncidence);
 }
 
-constexpr auto k421Parameters =
+constexpr std::array k421Parameters =
     circle_parameters(275, "Maximum size of the hole", 276, "Minimum size of the hole");
-constexpr auto k422Parameters =
+constexpr std::array k422Parameters =
     circle_parameters(277, "Maximum size of the stud", 278, "Minimum size of the stud");
 
 constexpr std::string_view kNotSimulated =
@@ -30,8 +28,7 @@ CycleResult<void> measure_circle(const CycleContext& context, Side side) {
   const bool inside = side == Side::Inside;
   const auto limits = TRY(inside ? size_limits(context, 275, 276) : size_limits(context, 277, 278));
   auto motion = TRY(begin_measurement(context));
-  const auto probed =
-      TRY(probe_circle(context, motion, side, {context.number(273), context.number(274)}));
+  const auto probed = TRY(probe_circle(context, motion, side, point_of(context, 273, 274)));
 
   const MeasuredValue diameter{.characteristic = "Diameter",
                                .role = size_role(side),
@@ -44,47 +41,34 @@ CycleResult<void> measure_circle(const CycleContext& context, Side side) {
                                .error_too_small = inside ? 1046 : 1048};
   const auto [centre_main, centre_secondary] = centre_values(context, probed.circle.centre);
   return finish_measurement(context, {.values = {centre_main, centre_secondary, diameter},
-                                      .measuring_height = to_length(context.number(261)),
                                       .correction = radius_correction(diameter),
                                       .form = probed.form});
 }
 
-constexpr std::array k423Parameters{coordinate(273, "Nominal centre, main axis"),
-                                    coordinate(274, "Nominal centre, secondary axis"),
-                                    length(282, "Nominal length, main axis"),
-                                    length(283, "Nominal length, secondary axis"),
-                                    kMeasuringHeight,
-                                    kSetUpClearance,
-                                    kClearanceHeight,
-                                    kMoveToClearance,
-                                    length(284, "Maximum length, main axis", 0),
-                                    length(285, "Minimum length, main axis", 0),
-                                    length(286, "Maximum length, secondary axis", 0),
-                                    length(287, "Minimum length, secondary axis", 0),
-                                    kCentreToleranceMain,
-                                    kCentreToleranceSecondary,
-                                    kMeasuringLog,
-                                    kStopOnTolerance,
-                                    kMonitoringTool};
+constexpr std::array k423Parameters =
+    list(coordinates(273, "Nominal centre, main axis", "Nominal centre, secondary axis"),
+         length(282, "Nominal length, main axis"), length(283, "Nominal length, secondary axis"),
+         kMeasuringHeight, kSetUpClearance, kClearanceHeight, kMoveToClearance,
+         length(284, "Maximum length, main axis", 0), length(285, "Minimum length, main axis", 0),
+         length(286, "Maximum length, secondary axis", 0),
+         length(287, "Minimum length, secondary axis", 0), kCentreToleranceMain,
+         kCentreToleranceSecondary, kMeasuringLog, kStopOnTolerance, kMonitoringTool);
 
 constexpr std::array k423Results =
-    join(join(kRectangleResults,
-              std::array<CycleOutput, 4>{
-                  {{161, "Deviation of the centre, main axis", Unit::Length},
-                   {162, "Deviation of the centre, secondary axis", Unit::Length},
-                   {164, "Deviation of the length, main axis", Unit::Length},
-                   {165, "Deviation of the length, secondary axis", Unit::Length}}}),
+    list(kRectangleResults,
+         results(161, Unit::Length, "Deviation of the centre, main axis",
+                 "Deviation of the centre, secondary axis"),
+         results(164, Unit::Length, "Deviation of the length, main axis",
+                 "Deviation of the length, secondary axis"),
          kStatusResults);
 
-/// Both lengths show one oversize of the tool: their mean corrects it, and the larger one decides
-/// on breakage.
+/// Both lengths show one oversize of the tool: the mean corrects it, the larger decides breakage.
 ToolCorrection tool_correction(const MeasuredValue& main, const MeasuredValue& secondary) {
   ToolCorrection correction = radius_correction(main);
   const ToolCorrection other = radius_correction(secondary);
   correction.change = to_length((correction.change + other.change).to_mm() / 2);
-  if (magnitude(other.deviation) > magnitude(correction.deviation)) {
+  if (magnitude(other.deviation) > magnitude(correction.deviation))
     correction.deviation = other.deviation;
-  }
   return correction;
 }
 
@@ -93,8 +77,8 @@ CycleResult<void> measure_rectangle(const CycleContext& context, Side side) {
   const auto secondary_limits = TRY(size_limits(context, 286, 287));
   auto motion = TRY(begin_measurement(context));
   const std::array nominal{context.number(282), context.number(283)};
-  const auto rectangle = TRY(
-      probe_rectangle(context, motion, side, {context.number(273), context.number(274)}, nominal));
+  const auto rectangle =
+      TRY(probe_rectangle(context, motion, side, point_of(context, 273, 274), nominal));
   const bool inside = side == Side::Inside;
   const auto value = [&](std::size_t axis, const std::optional<Limits>& limits) {
     const int error = static_cast<int>(axis) + (inside ? 1050 : 1054);
@@ -113,55 +97,35 @@ CycleResult<void> measure_rectangle(const CycleContext& context, Side side) {
   const MeasuredValue secondary = value(1, secondary_limits);
   const auto [centre_main, centre_secondary] = centre_values(context, rectangle.centre);
   return finish_measurement(context, {.values = {centre_main, centre_secondary, main, secondary},
-                                      .measuring_height = to_length(context.number(261)),
                                       .correction = tool_correction(main, secondary)});
 }
 
-constexpr std::array k425Parameters{coordinate(328, "Starting point, main axis"),
-                                    coordinate(329, "Starting point, secondary axis"),
-                                    coordinate(310, "Offset of the 2nd measurement, 0 none", 0),
-                                    kMeasuringAxisInPlane,
-                                    kMeasuringHeight,
-                                    kClearanceHeight,
-                                    length(311, "Nominal length"),
-                                    length(288, "Maximum length", 0),
-                                    length(289, "Minimum length", 0),
-                                    kMeasuringLog,
-                                    kStopOnTolerance,
-                                    kMonitoringTool,
-                                    newer(kSetUpClearance),
-                                    newer(kMoveToClearance)};
+constexpr std::array k425Parameters =
+    list(coordinates(328, "Starting point, main axis", "Starting point, secondary axis"),
+         coordinate(310, "Offset of the 2nd measurement, 0 none", 0), kMeasuringAxisInPlane,
+         kMeasuringHeight, kClearanceHeight, length(311, "Nominal length"),
+         length(288, "Maximum length", 0), length(289, "Minimum length", 0), kMeasuringLog,
+         kStopOnTolerance, kMonitoringTool, newer(kSetUpClearance), newer(kMoveToClearance));
 
-constexpr std::array k426Parameters{coordinate(263, "1st point, main axis"),
-                                    coordinate(264, "1st point, secondary axis"),
-                                    coordinate(265, "2nd point, main axis"),
-                                    coordinate(266, "2nd point, secondary axis"),
-                                    kMeasuringAxisInPlane,
-                                    kMeasuringHeight,
-                                    kSetUpClearance,
-                                    kClearanceHeight,
-                                    length(311, "Nominal length"),
-                                    length(288, "Maximum length", 0),
-                                    length(289, "Minimum length", 0),
-                                    kMeasuringLog,
-                                    kStopOnTolerance,
-                                    kMonitoringTool};
+constexpr std::array k426Parameters =
+    list(coordinates(263, "1st point, main axis", "1st point, secondary axis",
+                     "2nd point, main axis", "2nd point, secondary axis"),
+         kMeasuringAxisInPlane, kMeasuringHeight, kSetUpClearance, kClearanceHeight,
+         length(311, "Nominal length"), length(288, "Maximum length", 0),
+         length(289, "Minimum length", 0), kMeasuringLog, kStopOnTolerance, kMonitoringTool);
 
 constexpr std::array kWidthResults =
-    join(std::array<CycleOutput, 3>{{{156, "Measured length", Unit::Length},
-                                     {157, "Position of the centre line", Unit::Length},
-                                     {166, "Deviation of the length", Unit::Length}}},
-         kStatusResults);
+    list(results(156, Unit::Length, "Measured length", "Position of the centre line"),
+         results(166, Unit::Length, "Deviation of the length"), kStatusResults);
 
 std::size_t measuring_axis(const Arguments& arguments) {
   return static_cast<std::size_t>(arguments.whole(272) - 1);
 }
 
-/// From inside the slot: first in the positive direction; then in the negative one, moved along the
-/// slot by Q310.
+/// From inside the slot: in the positive direction, then in the negative one, moved along by Q310.
 std::array<Touch, 2> slot_touches(const Arguments& arguments) {
   const std::size_t axis = measuring_axis(arguments);
-  const Vec3 start{arguments.number(328), arguments.number(329), arguments.number(261)};
+  const Vec3 start = place_of(arguments, 328, 329, 261);
   Vec3 up;
   up[axis] = 1;
   Vec3 offset;
@@ -176,9 +140,8 @@ std::array<Touch, 2> slot_touches(const Arguments& arguments) {
 /// From outside, each towards the other point.
 std::array<Touch, 2> ridge_touches(const Arguments& arguments, double start_distance) {
   const std::size_t axis = measuring_axis(arguments);
-  const double height = arguments.number(261);
-  const Vec3 first{arguments.number(263), arguments.number(264), height};
-  const Vec3 second{arguments.number(265), arguments.number(266), height};
+  const Vec3 first = place_of(arguments, 263, 264, 261);
+  const Vec3 second = place_of(arguments, 265, 266, 261);
   Vec3 towards;
   towards[axis] = first[axis] < second[axis] ? 1 : -1;
   return {Touch{.start = first - towards * start_distance, .direction = towards},
@@ -200,7 +163,7 @@ CycleResult<void> measure_width(const CycleContext& context, Side side) {
 
   const double first = contacts.front().surface[axis];
   const double second = contacts.back().surface[axis];
-  set_length(context.host, 157, (first + second) / 2);
+  set_lengths(context.host, 157, {(first + second) / 2});
   const MeasuredValue size{.characteristic = "Length",
                            .role = size_role(side),
                            .nominal = to_length(context.number(311)),
@@ -210,30 +173,18 @@ CycleResult<void> measure_width(const CycleContext& context, Side side) {
                            .deviation_q = 166,
                            .error_too_large = inside ? 1058 : 1060,
                            .error_too_small = inside ? 1059 : 1061};
-  return finish_measurement(context, {.values = {size},
-                                      .measuring_height = to_length(context.number(261)),
-                                      .correction = radius_correction(size)});
+  return finish_measurement(context, {.values = {size}, .correction = radius_correction(size)});
 }
 
-constexpr std::array k427Parameters{coordinate(263, "Point, main axis"),
-                                    coordinate(264, "Point, secondary axis"),
-                                    kMeasuringHeight,
-                                    kSetUpClearance,
-                                    kMeasuringAxis,
-                                    kDirection,
-                                    kClearanceHeight,
-                                    kMeasuringLog,
-                                    coordinate(288, "Maximum coordinate", 0),
-                                    coordinate(289, "Minimum coordinate", 0),
-                                    kStopOnTolerance,
-                                    kMonitoringTool,
-                                    kReverseTool,
-                                    kAngleOfIncidence};
+constexpr std::array k427Parameters =
+    list(coordinates(263, "Point, main axis", "Point, secondary axis"), kMeasuringHeight,
+         kSetUpClearance, kMeasuringAxis, kDirection, kClearanceHeight, kMeasuringLog,
+         coordinate(288, "Maximum coordinate", 0), coordinate(289, "Minimum coordinate", 0),
+         kStopOnTolerance, kMonitoringTool, kReverseTool, kAngleOfIncidence);
 
 constexpr std::array k427Results =
-    join(std::array<CycleOutput, 2>{{{160, "Measured coordinate", Unit::Length},
-                                     {168, "Deviation of the coordinate", Unit::Length}}},
-         kStatusResults);
+    list(results(160, Unit::Length, "Measured coordinate"),
+         results(168, Unit::Length, "Deviation of the coordinate"), kStatusResults);
 
 CycleResult<void> measure_coordinate(const CycleContext& context) {
   const auto limits = TRY(size_limits(context, 288, 289));
@@ -251,15 +202,13 @@ CycleResult<void> measure_coordinate(const CycleContext& context) {
   const ToolCorrection correction = touched.axis == 2
                                         ? length_correction(deviation)
                                         : face_correction(deviation, context.whole(267));
-  return finish_measurement(context, {.values = {coordinate},
-                                      .measuring_height = to_length(context.number(261)),
-                                      .correction = correction});
+  return finish_measurement(context, {.values = {coordinate}, .correction = correction});
 }
 
-constexpr std::array k430Parameters = join(
-    kBoltCircle, std::array{length(288, "Maximum diameter", 0), length(289, "Minimum diameter", 0),
-                            kCentreToleranceMain, kCentreToleranceSecondary, kMeasuringLog,
-                            kStopOnTolerance, kMonitoringTool});
+constexpr std::array k430Parameters =
+    list(kBoltCircle, length(288, "Maximum diameter", 0), length(289, "Minimum diameter", 0),
+         kCentreToleranceMain, kCentreToleranceSecondary, kMeasuringLog, kStopOnTolerance,
+         kMonitoringTool);
 
 CycleResult<void> measure_bolt_circle(const CycleContext& context) {
   const auto limits = TRY(size_limits(context, 288, 289));
@@ -279,7 +228,6 @@ CycleResult<void> measure_bolt_circle(const CycleContext& context) {
   // The place of holes does not depend on the tool's radius: the tool is only watched for breakage.
   return finish_measurement(context,
                             {.values = {centre_main, centre_secondary, diameter},
-                             .measuring_height = to_length(context.number(261)),
                              .correction = ToolCorrection{.deviation = diameter.deviation()},
                              .form = probed.form});
 }
@@ -311,8 +259,7 @@ constexpr TouchProbeCycle kCycles[] = {
           "All parameters; each point is touched towards the other one."),
     cycle(427, "MEASURE COORDINATE", CycleKind::Measuring, k427Parameters, k427Results,
           errors::kMeasuring | errors::kJudged | ErrorSet{1042, 1072}, measure_coordinate,
-          "All other parameters. The nominal coordinate is that of the point (Q263, Q264, "
-          "Q261).",
+          "All other parameters. The nominal coordinate is that of the point (Q263, Q264, Q261).",
           kNotSimulated),
     cycle(430, "MEAS. BOLT HOLE CIRC", CycleKind::Measuring, k430Parameters, kCircleResults,
           errors::kMeasuring | errors::kJudged | errors::kCentre | ErrorSet{1062, 1063, 1081},

@@ -46,16 +46,14 @@ class ToleranceReader {
     const auto value =
         parse_decimal(text_.substr(start, place_ - start),
                       {.scale = kScale, .decimal_comma = true, .round_to_nearest = true});
-    if (!value || *value > kLargest) {
-      return nc_error(1004,
-                      fmt::format("QS400, position {}: the number is above 99999.9999", start + 1));
-    }
+    if (!value || *value > kLargest)
+      return nc_error(1004, "QS400, position {}: the number is above 99999.9999", start + 1);
     return to_nanometres(*value, inch_);
   }
 
   CycleFault fault(std::string_view expected) const {
-    return nc_error(1011, fmt::format("QS400, position {}: {} is expected, such as \"0.4-0.1\"",
-                                      place_ + 1, expected));
+    return nc_error(1011, "QS400, position {}: {} is expected, such as \"0.4-0.1\"", place_ + 1,
+                    expected);
   }
 
   std::string_view rest() const { return text_.substr(place_); }
@@ -110,9 +108,10 @@ std::optional<Limits> limits_behind(Length nominal, ToleranceReader& reader) {
 
 CycleResult<Nominal> parse_nominal(std::string_view parameter, std::string_view text, bool inch) {
   if (text.find_first_of("?@") != std::string_view::npos) {
-    return nc_error(1097, fmt::format("{} = \"{}\" leaves the position to the operator "
-                                      "(semi-automatic): write the nominal value alone",
-                                      parameter, text));
+    return nc_error(1097,
+                    "{} = \"{}\" leaves the position to the operator "
+                    "(semi-automatic): write the nominal value alone",
+                    parameter, text);
   }
   ToleranceReader reader(text, inch);
   const bool is_negative = reader.take('-');
@@ -121,9 +120,10 @@ CycleResult<Nominal> parse_nominal(std::string_view parameter, std::string_view 
   if (size && reader.at_end()) return Nominal{is_negative ? -*size : *size};
   const auto limits = size ? limits_behind(is_negative ? -*size : *size, reader) : std::nullopt;
   if (!limits) {
-    return nc_error(1011, fmt::format("{} = \"{}\" must be a dimension such as \"50\", "
-                                      "\"50+0.2-0.1\", \"50+-0.1\", \"50H7\" or \"50m\"",
-                                      parameter, text));
+    return nc_error(1011,
+                    "{} = \"{}\" must be a dimension such as \"50\", "
+                    "\"50+0.2-0.1\", \"50+-0.1\", \"50H7\" or \"50m\"",
+                    parameter, text);
   }
   const std::int64_t width = (limits->upper - limits->lower).count();
   return Nominal{limits->lower + Length::nanometres(width / 2), *limits};
@@ -131,8 +131,8 @@ CycleResult<Nominal> parse_nominal(std::string_view parameter, std::string_view 
 
 CycleResult<std::optional<Limits>> parse_tolerance(std::string_view text, bool inch) {
   if (text.size() > kMaxCharacters) {
-    return nc_error(1011, fmt::format("QS400, position {}: the text is longer than {} characters",
-                                      kMaxCharacters + 1, kMaxCharacters));
+    return nc_error(1011, "QS400, position {}: the text is longer than {} characters",
+                    kMaxCharacters + 1, kMaxCharacters);
   }
   if (text.find_first_not_of(' ') == std::string_view::npos) return std::optional<Limits>{};
 
@@ -149,9 +149,8 @@ CycleResult<std::optional<Limits>> parse_tolerance(std::string_view text, bool i
     const auto lower = TRY(reader.number());
     limits.lower = -lower;
   }
-  if (!reader.at_end()) {
+  if (!reader.at_end())
     return reader.fault(has_lower ? "the end of the text" : "'-' or the end of the text");
-  }
   if (is_sum || limits == Limits{}) return std::optional<Limits>{};
   return std::optional(limits);
 }

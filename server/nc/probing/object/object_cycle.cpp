@@ -155,7 +155,7 @@ CycleResult<std::vector<Contact>> ObjectProbing::touch(
         const Vec3 along = extrusion.step * static_cast<double>(i % times);
         farthest = std::max(farthest, std::abs(dot(off - along, touches[k].direction)));
       }
-      set_length(context_.host, static_cast<std::uint16_t>(969 + means.size()), farthest);
+      set_lengths(context_.host, 969 + means.size(), {farthest});
     }
     touches.clear();
   }

@@ -102,13 +102,13 @@ inline constexpr std::array kPoint2{dimension(1103, "2nd point, main axis"),
                                     dimension(1105, "2nd point, probe axis")};
 inline constexpr CycleParameter kObjectDirection =
     choice(372, "Direction: 1 main, 2 secondary, 3 probe axis, with its sign", -3, 3);
-inline constexpr std::array kObject{
+inline constexpr std::array kObject = list(
     kSetUpClearance, kClearanceHeight,
     choice(
         1125,
         "Mode of the clearance height: -1 never, 0 around the cycle, 1 each object, 2 each point",
         -1, 2, 1),
-    choice(309, "Stop out of tolerance: 0 no, 1 yes, 2 for reject alone", 0, 2, 0)};
+    choice(309, "Stop out of tolerance: 0 no, 1 yes, 2 for reject alone", 0, 2, 0));
 constexpr CycleParameter transfer_position(double most) {
   return choice(1120, "Transfer into the preset: 0 none, point 1, 2, ..., last: the mean", 0, most,
                 0);
@@ -151,15 +151,14 @@ constexpr TouchProbeCycle object_cycle(std::uint16_t number, std::string_view na
                                        std::span<const CycleParameter> parameters,
                                        std::span<const CycleOutput> results, const ErrorSet& more,
                                        CycleFunction run, ArgumentCheck check = check_dimensions) {
-  TouchProbeCycle made =
-      cycle(number, name, CycleKind::Measuring, parameters, results,
-            errors::kUnscaled | more | ErrorSet{1011, 1016, 1072, 1085, 1097}, run,
-            "All other parameters. A dimension with a tolerance is probed at, compared with "
-            "and transferred from the middle of it. A basic rotation stays active. Results "
-            "are logged in TCHPRAUTO.html and transferred into the row of the active preset "
-            "before Q309 stops.",
-            "Semi-automatic probing (`?`) and given actual positions (`@`): the block is "
-            "refused. An L-shaped stylus: only the ball touches and collides.");
+  TouchProbeCycle made = cycle(
+      number, name, CycleKind::Measuring, parameters, results,
+      errors::kUnscaled | more | ErrorSet{1011, 1016, 1072, 1085, 1097}, run,
+      "All other parameters. A dimension with a tolerance is probed at, compared with and "
+      "transferred from the middle of it. A basic rotation stays active. Results are logged in "
+      "TCHPRAUTO.html and transferred into the row of the active preset before Q309 stops.",
+      "Semi-automatic probing (`?`) and given actual positions (`@`): the block is refused. An "
+      "L-shaped stylus: only the ball touches and collides.");
   made.check = check;
   return made;
 }

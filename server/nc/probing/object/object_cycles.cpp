@@ -2,28 +2,26 @@
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/measuring/measurement.hpp"
 #include "nc/probing/object/object_cycle.hpp"
-#include "nc/probing/touch/part_here.hpp"
+#include "nc/probing/touch/circle_probing.hpp"
 
 namespace fitgauge::probing::object_cycles {
 
 using namespace parameter;
 
-constexpr std::array kEnd = join(kObject, std::array{transfer_position(1)});
-constexpr std::array kUndercut =
-    join(std::array{length(1118, "Start further back from the face", 0)}, kEnd);
-constexpr std::array kFace = join(kPoint1, std::array{kObjectDirection});
-constexpr std::array kWidth =
-    join(kPoint1, std::array{dimension(1113, "Width of the slot or ridge"),
-                             choice(1115, "Geometry: 0 slot, 1 ridge", 0, 1, 0),
-                             angle(1114, "Angle of rotation", 360, 0)});
-constexpr std::array k1400 = join(kFace, kEnd);
-constexpr std::array k1404 = join(kWidth, kEnd);
-constexpr std::array k1430 = join(kFace, kUndercut);
-constexpr std::array k1434 = join(kWidth, kUndercut);
-constexpr std::array k1493{
+constexpr std::array kEnd = list(kObject, transfer_position(1));
+constexpr std::array kUndercut = list(length(1118, "Start further back from the face", 0), kEnd);
+constexpr std::array kFace = list(kPoint1, kObjectDirection);
+constexpr std::array kWidth = list(kPoint1, dimension(1113, "Width of the slot or ridge"),
+                                   choice(1115, "Geometry: 0 slot, 1 ridge", 0, 1, 0),
+                                   angle(1114, "Angle of rotation", 360, 0));
+constexpr std::array k1400 = list(kFace, kEnd);
+constexpr std::array k1404 = list(kWidth, kEnd);
+constexpr std::array k1430 = list(kFace, kUndercut);
+constexpr std::array k1434 = list(kWidth, kUndercut);
+constexpr std::array k1493 = list(
     kObjectDirection, choice(1145, "Number of repetitions", 1, 99),
     CycleParameter{.id = q(1146), .meaning = "Length", .unit = Unit::Length, .range = {-99, 99}},
-    choice(1149, "Effect: 0 next cycle, 1 until the program ends", 0, 1, 0)};
+    choice(1149, "Effect: 0 next cycle, 1 until the program ends", 0, 1, 0));
 
 constexpr auto kFaceResults = object_results<1>(std::array<CycleOutput, 0>{});
 constexpr auto kWidthResults =
@@ -82,21 +80,18 @@ CycleResult<void> extrude(const CycleContext& context) {
   return {};
 }
 
-constexpr std::array kCentre = join(kPoint1, std::array{dimension(1116, "Diameter")});
+constexpr std::array kCentre = list(kPoint1, dimension(1116, "Diameter"));
 constexpr std::array kTouched =
-    join(std::array{choice(423, "Number of touches", 3, 8, 3), angle(325, "Starting angle", 360, 0),
-                    angle(1119, "Angular length", 360, 360)},
-         kObject);
-constexpr std::array kCircleEnd = join(kTouched, std::array{transfer_position(1)});
+    list(choice(423, "Number of touches", 3, 8, 3), angle(325, "Starting angle", 360, 0),
+         angle(1119, "Angular length", 360, 360), kObject);
+constexpr std::array kCircleEnd = list(kTouched, transfer_position(1));
 constexpr std::array k1401 =
-    join(join(kCentre, std::array{choice(1115, "Geometry: 0 hole, 1 stud", 0, 1, 0)}), kCircleEnd);
-constexpr std::array k1402 = join(kCentre, kCircleEnd);
-constexpr std::array k1411 = join(
-    join(join(kCentre, kPoint2),
-         std::array{dimension(1117, "2nd diameter"),
-                    choice(1115, "Geometry: 0 holes, 1 studs, 2 hole and stud, 3 stud and hole", 0,
-                           3, 0)}),
-    join(kTouched, transfer_all(3, 2)));
+    list(kCentre, choice(1115, "Geometry: 0 hole, 1 stud", 0, 1, 0), kCircleEnd);
+constexpr std::array k1402 = list(kCentre, kCircleEnd);
+constexpr std::array k1411 =
+    list(kCentre, kPoint2, dimension(1117, "2nd diameter"),
+         choice(1115, "Geometry: 0 holes, 1 studs, 2 hole and stud, 3 stud and hole", 0, 3, 0),
+         kTouched, transfer_all(3, 2));
 
 constexpr auto kOneResults = object_results<1>(std::array{kDiameterResult});
 constexpr auto kTwoResults =
@@ -162,9 +157,8 @@ CycleResult<void> probe_circles(const CycleContext& context) {
     objects.push_back(circle.touches);
   }
   const Vec3 nominal = circles.back().point.nominal - circles.front().point.nominal;
-  if (count == 2 && nominal.x == 0 && nominal.y == 0) {
+  if (count == 2 && nominal.x == 0 && nominal.y == 0)
     return nc_error(1081, "both centres are the same");
-  }
   const auto touched = probing.touch(objects);
   if (!touched) {
     std::vector<PlannedPlace> places;
@@ -211,27 +205,18 @@ CycleResult<void> probe_sphere(const CycleContext& context) {
       {.points = {object.point}, .sizes = {object.size(sphere->radius - ball, 966)}});
 }
 
-constexpr std::array kPoints = join(kPoint1, kPoint2);
-constexpr std::array kLineEnd = join(std::array{kObjectDirection}, kObject);
-constexpr std::array k1410 = join(join(kPoints, kLineEnd), transfer_all(3, 2));
+constexpr std::array kPoints = list(kPoint1, kPoint2);
+constexpr std::array kLineEnd = list(kObjectDirection, kObject);
+constexpr std::array k1410 = list(kPoints, kLineEnd, transfer_all(3, 2));
 constexpr std::array k1412 =
-    join(join(kPoint1,
-              std::array{
-                  CycleParameter{.id = q(400),
-                                 .meaning = "Tolerance across the line, such as \"0.4-0.1\"",
-                                 .kind = ValueKind::Text,
-                                 .required = false},
-                  angle(1130, "Nominal angle of the line"),
-                  choice(1131, "Probing direction: the line turned by +1 or -1 right angle", -1, 1),
-                  coordinate(1132, "1st distance along the line"),
-                  coordinate(1133, "2nd distance along the line"),
-                  choice(1139, "Plane of the line: 1 YZ, 2 ZX, 3 XY", 1, 3, 3)}),
-         join(kObject, transfer_all(1, 2)));
-constexpr std::array k1420 =
-    join(join(kPoints, std::array{dimension(1106, "3rd point, main axis"),
-                                  dimension(1107, "3rd point, secondary axis"),
-                                  dimension(1108, "3rd point, probe axis")}),
-         join(kLineEnd, transfer_all(4, 1)));
+    list(kPoint1, tolerance_text("Tolerance across the line, such as \"0.4-0.1\""),
+         angle(1130, "Nominal angle of the line"),
+         choice(1131, "Probing direction: the line turned by +1 or -1 right angle", -1, 1),
+         coordinates(1132, "1st distance along the line", "2nd distance along the line"),
+         choice(1139, "Plane of the line: 1 YZ, 2 ZX, 3 XY", 1, 3, 3), kObject, transfer_all(1, 2));
+constexpr std::array k1420 = list(
+    kPoints, dimension(1106, "3rd point, main axis"), dimension(1107, "3rd point, secondary axis"),
+    dimension(1108, "3rd point, probe axis"), kLineEnd, transfer_all(4, 1));
 
 constexpr auto kLineResults = object_results<2>(std::array{kAngleResult, kTableAngleResult});
 constexpr std::array kSpatial{CycleOutput{961, "Spatial angle A", Unit::Angle},
@@ -247,9 +232,8 @@ CycleResult<ObjectFound> touch_line(ObjectProbing& probing, ObjectPoint first, O
     return to - from;
   };
   const Vec3 nominal = line(first.nominal, second.nominal);
-  if (norm(cross(nominal, direction)) <= tolerance::kCollinear * (1 + norm(nominal))) {
+  if (norm(cross(nominal, direction)) <= tolerance::kCollinear * (1 + norm(nominal)))
     return nc_error(1081, "both points lie at the same place of the line");
-  }
   const auto contacts = TRY(probing.touch(
       {{probing.towards(first.nominal, direction), probing.towards(second.nominal, direction)}}));
   const Vec3 measured = line(contacts.front().ball_centre, contacts.back().ball_centre);

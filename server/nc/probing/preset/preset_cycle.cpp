@@ -18,9 +18,8 @@ using machine::PresetFrame;
 /// tilted axis adds the rounding of three machine axes.
 Vec3 tidy(Vec3 point) {
   constexpr double kPicometres = 1e9;  // in a mm
-  for (std::size_t axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
     point[axis] = std::round(point[axis] * kPicometres) / kPicometres;
-  }
   return point;
 }
 
@@ -99,9 +98,7 @@ CycleResult<void> write_datum_table(const CycleContext& context, const PresetFra
 void publish_circle(const CycleContext& context, Side side, const ProbedCircle& probed) {
   const Circle& circle = probed.circle;
   CycleHost& host = context.host;
-  set_length(host, 151, circle.centre.x);
-  set_length(host, 152, circle.centre.y);
-  set_length(host, 153, 2 * circle.radius);
+  set_lengths(host, 151, {circle.centre.x, circle.centre.y, 2 * circle.radius});
   host.record(
       {.cycle = context.descriptor().number,
        .sizes = {{.characteristic = "Diameter",
@@ -113,9 +110,8 @@ void publish_circle(const CycleContext& context, Side side, const ProbedCircle& 
 
 CycleResult<ProbingMotion> begin_preset(const CycleContext& context) {
   TRY(refuse_mirror_and_scaling(context.state().frames));
-  if (context.whole(303) == -1 && context.whole(305) != 0) {
+  if (context.whole(303) == -1 && context.whole(305) != 0)
     return nc_error(1078, "0 is the datum table, 1 the preset table");
-  }
   return ProbingMotion::begin(context);
 }
 
@@ -162,7 +158,7 @@ CycleResult<void> finish_preset(const CycleContext& context, ProbingMotion& moti
                                 const DatumPoint& found, std::optional<double> basic_rotation) {
   std::vector<DatumPoint> points{found};
   if (context.whole(381) == 1) {
-    const Vec3 nominal{context.number(382), context.number(383), context.number(384)};
+    const Vec3 nominal = place_of(context, 382, 383, 384);
     const auto surface = TRY(touch_down(context, motion, nominal));
     points.push_back(
         {.point = surface, .axes = {false, false, true}, .datum = {0, 0, context.number(333)}});
@@ -172,7 +168,7 @@ CycleResult<void> finish_preset(const CycleContext& context, ProbingMotion& moti
 
 CycleResult<void> set_datum_of_axis(const CycleContext& context, const WorkingPlane& plane,
                                     const Vec3& surface, std::size_t axis) {
-  set_length(context.host, 160, surface[axis]);
+  set_lengths(context.host, 160, {surface[axis]});
   DatumPoint found{.point = surface};
   found.axes[axis] = true;
   found.datum[axis] = context.number(333);

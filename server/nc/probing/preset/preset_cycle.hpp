@@ -2,8 +2,6 @@
 
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
-#include "nc/probing/touch/fits.hpp"
-#include "nc/probing/touch/probing_motion.hpp"
 
 namespace fitgauge::probing {
 
@@ -49,18 +47,17 @@ CycleResult<void> correct_preset(const CycleContext& context, const WorkingPlane
 namespace parameter {
 
 /// The last parameters of the cycles that also can set the datum in the probe axis.
-inline constexpr std::array kProbeAxisDatum{
-    choice(381, "Touch in the probe axis too: 0 no, 1 yes", 0, 1, 0),
-    coordinate(382, "Touch in the probe axis, main axis", 0),
-    coordinate(383, "Touch in the probe axis, secondary axis", 0),
-    coordinate(384, "Touch in the probe axis, probe axis", 0),
-    coordinate(333, "New datum in the probe axis", 0)};
+inline constexpr std::array kProbeAxisDatum =
+    list(choice(381, "Touch in the probe axis too: 0 no, 1 yes", 0, 1, 0),
+         coordinate(382, "Touch in the probe axis, main axis", 0),
+         coordinate(383, "Touch in the probe axis, secondary axis", 0),
+         coordinate(384, "Touch in the probe axis, probe axis", 0),
+         coordinate(333, "New datum in the probe axis", 0));
 
 /// Target of the datum and new coordinates of the found point, as in 410 to 416 and 418.
 inline constexpr std::array kPlaneDatum =
-    join(std::array{kTableRow, coordinate(331, "New datum in the main axis", 0),
-                    coordinate(332, "New datum in the secondary axis", 0), kTransfer},
-         kProbeAxisDatum);
+    list(kTableRow, coordinate(331, "New datum in the main axis", 0),
+         coordinate(332, "New datum in the secondary axis", 0), kTransfer, kProbeAxisDatum);
 
 }  // namespace parameter
 

@@ -1,43 +1,34 @@
 #include "nc/probing/alignment/rotation.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/measured_value.hpp"
-#include "nc/probing/parameters.hpp"
 #include "nc/probing/preset/preset_cycle.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
 #include "nc/probing/touch/line_probing.hpp"
-#include "nc/probing/touch/part_here.hpp"
-#include "nc/probing/touch/probing_motion.hpp"
-#include "nc/probing/touch/rectangle_probing.hpp"
 
 namespace fitgauge::probing::preset_cycles {
 
 using Touches = std::array<Touch, 4>;
 using namespace parameter;
 
-constexpr std::array kWidth{coordinate(321, "Centre, main axis"),
-                            coordinate(322, "Centre, secondary axis"),
-                            length(311, "Width"),
-                            kMeasuringAxisInPlane,
-                            kMeasuringHeight,
-                            kSetUpClearance,
-                            kClearanceHeight};
+constexpr std::array kWidth =
+    list(coordinates(321, "Centre, main axis", "Centre, secondary axis"), length(311, "Width"),
+         kMeasuringAxisInPlane, kMeasuringHeight, kSetUpClearance, kClearanceHeight);
 constexpr std::array kWidthDatum =
-    join(std::array{kTableRow, coordinate(405, "New datum", 0), kTransfer}, kProbeAxisDatum);
+    list(kTableRow, coordinate(405, "New datum", 0), kTransfer, kProbeAxisDatum);
 
-constexpr std::array k408Parameters = join(join(kWidth, std::array{kMoveToClearance}), kWidthDatum);
-constexpr std::array k409Parameters = join(kWidth, kWidthDatum);
+constexpr std::array k408Parameters = list(kWidth, kMoveToClearance, kWidthDatum);
+constexpr std::array k409Parameters = list(kWidth, kWidthDatum);
 
-constexpr std::array<CycleOutput, 2> kWidthResults{
-    {{157, "Position of the centre line", Unit::Length}, {166, "Measured width", Unit::Length}}};
+constexpr std::array kWidthResults = list(results(157, Unit::Length, "Position of the centre line"),
+                                          results(166, Unit::Length, "Measured width"));
 
 CycleResult<void> width_datum(const CycleContext& context, ProbingMotion& motion, Side side) {
   const auto axis = static_cast<std::size_t>(context.whole(272) - 1);
-  const Vec3 centre{context.number(321), context.number(322), context.number(261)};
+  const Vec3 centre = place_of(context, 321, 322, 261);
   auto touches = width_touches(side, centre, axis, context.number(311), motion.start_distance());
   const bool moves = touches[0].start != touches[1].start;
-  if (moves && (side == Side::Outside || context.whole(301) == 1)) {
+  if (moves && (side == Side::Outside || context.whole(301) == 1))
     touches[1].transit = Transit::ClearanceHeight;
-  }
   const auto contacts = TRY(
       touch_part(context, motion, touches, width_place(side, centre, axis, context.number(311))));
 
@@ -47,36 +38,30 @@ CycleResult<void> width_datum(const CycleContext& context, ProbingMotion& motion
   found.point[axis] = (first + second) / 2;
   found.axes[axis] = true;
   found.datum[axis] = context.number(405);
-  set_length(context.host, 157, found.point[axis]);
-  set_length(context.host, 166, std::abs(first - second));
+  set_lengths(context.host, 157, {found.point[axis]});
+  set_lengths(context.host, 166, {std::abs(first - second)});
   return finish_preset(context, motion, found);
 }
 
 constexpr std::array k410Parameters =
-    join(std::array{coordinate(321, "Centre, main axis"), coordinate(322, "Centre, secondary axis"),
-                    length(323, "Length, main axis"), length(324, "Length, secondary axis"),
-                    kMeasuringHeight, kSetUpClearance, kClearanceHeight, kMoveToClearance},
-         kPlaneDatum);
+    list(coordinates(321, "Centre, main axis", "Centre, secondary axis"),
+         length(323, "Length, main axis"), length(324, "Length, secondary axis"), kMeasuringHeight,
+         kSetUpClearance, kClearanceHeight, kMoveToClearance, kPlaneDatum);
 
 CycleResult<void> rectangle_datum(const CycleContext& context, ProbingMotion& motion, Side side) {
-  const auto rectangle =
-      TRY(probe_rectangle(context, motion, side, {context.number(321), context.number(322)},
-                          {context.number(323), context.number(324)}));
-  set_length(context.host, 151, rectangle.centre.x);
-  set_length(context.host, 152, rectangle.centre.y);
-  set_length(context.host, 154, rectangle.length[0]);
-  set_length(context.host, 155, rectangle.length[1]);
+  const auto rectangle = TRY(probe_rectangle(context, motion, side, point_of(context, 321, 322),
+                                             {context.number(323), context.number(324)}));
+  set_lengths(context.host, 151, {rectangle.centre.x, rectangle.centre.y});
+  set_lengths(context.host, 154, {rectangle.length[0], rectangle.length[1]});
   return finish_preset(context, motion, plane_datum(context, rectangle.centre));
 }
 
-constexpr std::array k412Parameters = join(
-    join(circle(coordinate(321, "Centre, main axis"), coordinate(322, "Centre, secondary axis")),
-         kPlaneDatum),
-    std::array{kTouches, kTraverse});
+constexpr std::array k412Parameters =
+    list(circle(coordinates(321, "Centre, main axis", "Centre, secondary axis")), kPlaneDatum,
+         kTouches, kTraverse);
 
 CycleResult<void> circle_datum(const CycleContext& context, ProbingMotion& motion, Side side) {
-  const auto probed =
-      TRY(probe_circle(context, motion, side, {context.number(321), context.number(322)}));
+  const auto probed = TRY(probe_circle(context, motion, side, point_of(context, 321, 322)));
   publish_circle(context, side, probed);
   return finish_preset(context, motion, plane_datum(context, probed.circle.centre));
 }
@@ -85,45 +70,36 @@ constexpr std::array kCorner{kMeasuringHeight, kSetUpClearance, kClearanceHeight
                              choice(304, "Basic rotation: 0 no, 1 yes", 0, 1, 0)};
 
 constexpr std::array k414Parameters =
-    join(join(std::array{coordinate(263, "1st point, main axis"),
-                         coordinate(264, "1st point, secondary axis"),
-                         length(326, "Spacing in the main axis"),
-                         coordinate(296, "3rd point, main axis"),
-                         coordinate(297, "3rd point, secondary axis"),
-                         length(327, "Spacing in the secondary axis")},
-              kCorner),
-         kPlaneDatum);
+    list(coordinates(263, "1st point, main axis", "1st point, secondary axis"),
+         length(326, "Spacing in the main axis"),
+         coordinates(296, "3rd point, main axis", "3rd point, secondary axis"),
+         length(327, "Spacing in the secondary axis"), kCorner, kPlaneDatum);
 
-constexpr std::array k415Parameters = join(
-    join(std::array{coordinate(263, "Corner, main axis"), coordinate(264, "Corner, secondary axis"),
-                    length(326, "Corner to the 2nd point in the main axis"),
-                    length(327, "Corner to the 4th point in the secondary axis"),
-                    choice(308, "Corner: 1 lower left, 2 lower right, 3 upper right, 4 upper left",
-                           1, 4)},
-         kCorner),
-    kPlaneDatum);
+constexpr std::array k415Parameters =
+    list(coordinates(263, "Corner, main axis", "Corner, secondary axis"),
+         length(326, "Corner to the 2nd point in the main axis"),
+         length(327, "Corner to the 4th point in the secondary axis"),
+         choice(308, "Corner: 1 lower left, 2 lower right, 3 upper right, 4 upper left", 1, 4),
+         kCorner, kPlaneDatum);
 
-constexpr std::array<CycleOutput, 2> kCornerResults{
-    {{151, "Corner, main axis", Unit::Length}, {152, "Corner, secondary axis", Unit::Length}}};
+constexpr std::array kCornerResults =
+    results(151, Unit::Length, "Corner, main axis", "Corner, secondary axis");
 
 double sign(double value) { return value < 0 ? -1 : 1; }
 
 void connect(Touches& touches, bool via_clearance, const Vec3& around_corner) {
-  for (std::size_t i = 1; i < touches.size(); ++i) {
+  for (std::size_t i = 1; i < touches.size(); ++i)
     touches[i].transit = via_clearance ? Transit::ClearanceHeight : Transit::Straight;
-  }
   touches[2].waypoints = {around_corner};
 }
 
 /// Touches an outside corner. The place of the 1st point relative to the 3rd shows which corner it
 /// is. Points 1 and 2 are on the edge along the main axis, 3 and 4 on the other edge.
 CycleResult<Touches> outside_touches(const Arguments& arguments, double start_distance) {
-  const double height = arguments.number(261);
-  const Vec3 first{arguments.number(263), arguments.number(264), height};
-  const Vec3 third{arguments.number(296), arguments.number(297), height};
-  if (first.x == third.x || first.y == third.y) {
+  const Vec3 first = place_of(arguments, 263, 264, 261);
+  const Vec3 third = place_of(arguments, 296, 297, 261);
+  if (first.x == third.x || first.y == third.y)
     return nc_error(1081, "the 1st and 3rd point do not say where the corner lies");
-  }
   // Unit steps from the corner into the part.
   const Vec3 main{sign(first.x - third.x), 0, 0};
   const Vec3 secondary{0, sign(third.y - first.y), 0};
@@ -133,7 +109,7 @@ CycleResult<Touches> outside_touches(const Arguments& arguments, double start_di
                   Touch{.start = below + main * arguments.number(326), .direction = secondary},
                   Touch{.start = beside, .direction = main},
                   Touch{.start = beside + secondary * arguments.number(327), .direction = main}};
-  connect(touches, arguments.whole(301) == 1, {beside.x, below.y, height});
+  connect(touches, arguments.whole(301) == 1, {beside.x, below.y, first.z});
   return touches;
 }
 
@@ -142,7 +118,7 @@ Touches inside_touches(const Arguments& arguments, double start_distance) {
   const int corner = arguments.whole(308);
   const Vec3 main{corner == 1 || corner == 4 ? 1.0 : -1.0, 0, 0};
   const Vec3 secondary{0, corner <= 2 ? 1.0 : -1.0, 0};
-  const Vec3 vertex{arguments.number(263), arguments.number(264), arguments.number(261)};
+  const Vec3 vertex = place_of(arguments, 263, 264, 261);
   const Vec3 start = vertex + (main + secondary) * start_distance;
   const Vec3 along_main = vertex + main * arguments.number(326) + secondary * start_distance;
   const Vec3 along_secondary = vertex + secondary * arguments.number(327) + main * start_distance;
@@ -160,29 +136,24 @@ CycleResult<void> corner_datum(const CycleContext& context, ProbingMotion& motio
                                   : outside_touches(context, start_distance));
   const auto contacts = TRY(motion.touch_all(touches, context.number(260)));
   const auto corner = TRY(corner_of(contacts, touches, motion.ball_radius()));
-  set_length(context.host, 151, corner.point.x);
-  set_length(context.host, 152, corner.point.y);
+  set_lengths(context.host, 151, {corner.point.x, corner.point.y});
   std::optional<double> rotation;
-  if (context.whole(304) == 1) {
+  if (context.whole(304) == 1)
     rotation = workpiece_angle(context.state().frames, motion.plane(), corner.direction);
-  }
   return finish_preset(context, motion, plane_datum(context, corner.point), rotation);
 }
 
-constexpr std::array k416Parameters =
-    join(join(kBoltCircle, kPlaneDatum), std::array{newer(kSetUpClearance)});
+constexpr std::array k416Parameters = list(kBoltCircle, kPlaneDatum, newer(kSetUpClearance));
 
-constexpr std::array k418Parameters = join(
-    std::array{coordinate(268, "1st hole, main axis"), coordinate(269, "1st hole, secondary axis"),
-               coordinate(270, "2nd hole, main axis"), coordinate(271, "2nd hole, secondary axis"),
-               coordinate(316, "3rd hole, main axis"), coordinate(317, "3rd hole, secondary axis"),
-               coordinate(318, "4th hole, main axis"), coordinate(319, "4th hole, secondary axis"),
-               kMeasuringHeight, kClearanceHeight},
-    kPlaneDatum);
+constexpr std::array k418Parameters =
+    list(coordinates(268, "1st hole, main axis", "1st hole, secondary axis", "2nd hole, main axis",
+                     "2nd hole, secondary axis"),
+         coordinates(316, "3rd hole, main axis", "3rd hole, secondary axis", "4th hole, main axis",
+                     "4th hole, secondary axis"),
+         kMeasuringHeight, kClearanceHeight, kPlaneDatum);
 
-constexpr std::array<CycleOutput, 2> k418Results{
-    {{151, "Intersection, main axis", Unit::Length},
-     {152, "Intersection, secondary axis", Unit::Length}}};
+constexpr std::array k418Results =
+    results(151, Unit::Length, "Intersection, main axis", "Intersection, secondary axis");
 
 CycleResult<void> bolt_circle(const CycleContext& context, ProbingMotion& motion) {
   const auto probed = TRY(probe_bolt_circle(context, motion));
@@ -192,41 +163,27 @@ CycleResult<void> bolt_circle(const CycleContext& context, ProbingMotion& motion
 
 CycleResult<void> four_holes(const CycleContext& context, ProbingMotion& motion) {
   std::vector<Point2> nominal;
-  for (const int main : {268, 270, 316, 318}) {
-    nominal.push_back({context.number(main), context.number(main + 1)});
-  }
+  for (const int main : {268, 270, 316, 318}) nominal.push_back(point_of(context, main, main + 1));
   const auto centre = TRY(probe_hole_centres(context, motion, nominal));
   const auto point = TRY(intersection(centre[0], centre[2], centre[1], centre[3]));
-  set_length(context.host, 151, point.x);
-  set_length(context.host, 152, point.y);
+  set_lengths(context.host, 151, {point.x, point.y});
   return finish_preset(context, motion, plane_datum(context, point));
 }
 
-constexpr std::array k417Parameters{coordinate(263, "Point, main axis"),
-                                    coordinate(264, "Point, secondary axis"),
-                                    coordinate(294, "Point, probe axis"),
-                                    kSetUpClearance,
-                                    kClearanceHeight,
-                                    kTableRow,
-                                    coordinate(333, "New datum in the probe axis", 0),
-                                    kTransfer};
+constexpr std::array k417Parameters =
+    list(coordinates(263, "Point, main axis", "Point, secondary axis"),
+         coordinate(294, "Point, probe axis"), kSetUpClearance, kClearanceHeight, kTableRow,
+         coordinate(333, "New datum in the probe axis", 0), kTransfer);
 
-constexpr std::array k419Parameters{coordinate(263, "Point, main axis"),
-                                    coordinate(264, "Point, secondary axis"),
-                                    kMeasuringHeight,
-                                    kSetUpClearance,
-                                    kClearanceHeight,
-                                    kMeasuringAxis,
-                                    kDirection,
-                                    kTableRow,
-                                    coordinate(333, "New datum", 0),
-                                    kTransfer};
+constexpr std::array k419Parameters =
+    list(coordinates(263, "Point, main axis", "Point, secondary axis"), kMeasuringHeight,
+         kSetUpClearance, kClearanceHeight, kMeasuringAxis, kDirection, kTableRow,
+         coordinate(333, "New datum", 0), kTransfer);
 
-constexpr std::array<CycleOutput, 1> kCoordinateResults{
-    {{160, "Measured coordinate", Unit::Length}}};
+constexpr std::array kCoordinateResults = results(160, Unit::Length, "Measured coordinate");
 
 CycleResult<void> in_probe_axis(const CycleContext& context, ProbingMotion& motion) {
-  const Vec3 nominal{context.number(263), context.number(264), context.number(294)};
+  const Vec3 nominal = place_of(context, 263, 264, 294);
   const auto surface = TRY(touch_down(context, motion, nominal));
   return set_datum_of_axis(context, motion.plane(), surface, 2);
 }
@@ -236,10 +193,10 @@ CycleResult<void> in_one_axis(const CycleContext& context, ProbingMotion& motion
   return set_datum_of_axis(context, motion.plane(), touched.surface, touched.axis);
 }
 
-constexpr std::array k247Parameters{CycleParameter{.id = q(339),
-                                                   .meaning = "Number or name of the preset",
-                                                   .kind = ValueKind::NumberOrText,
-                                                   .range = {0, 65535}}};
+constexpr std::array k247Parameters = list(CycleParameter{.id = q(339),
+                                                          .meaning = "Number or name of the preset",
+                                                          .kind = ValueKind::NumberOrText,
+                                                          .range = {0, 65535}});
 
 /// Returns the row whose column DOC has the name.
 CycleResult<int> named_row(const machine::PresetTable& presets, const std::string& name) {

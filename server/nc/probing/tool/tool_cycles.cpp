@@ -1,6 +1,5 @@
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/measured_value.hpp"
-#include "nc/probing/parameters.hpp"
 #include "nc/probing/tool/tool_measuring.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 
@@ -65,9 +64,8 @@ CycleResult<void> calibrate_at_known_place(const CycleContext& context) {
 }
 
 CycleResult<void> calibrate_here(const CycleContext& context) {
-  if (context.whole(536) == 0) {
+  if (context.whole(536) == 0)
     context.host.stop("position the calibrating tool over the centre of the tool touch probe");
-  }
   const machine::Vec3 tip = context.machine.position(machine::CoordinateSystem::Machine).linear;
   return calibrate(context, ToolProbing::begin_here(context), {tip.x, tip.y});
 }
@@ -88,17 +86,10 @@ constexpr CycleParameter status_parameter() {
   made.required = false;
   return made;
 }
-constexpr std::array kToolWords{in_part(1, {.id = ParameterId::WordCheck,
-                                            .meaning = "Tool measurement: 0 first, 1 check",
-                                            .kind = ValueKind::Whole,
-                                            .range = {0, 1}}),
-                                status_parameter(), height_parameter(2),
-                                in_part(3, {.id = ParameterId::WordTeeth,
-                                            .meaning = "Measure the single teeth: 0 no, 1 yes",
-                                            .kind = ValueKind::Whole,
-                                            .range = {0, 1},
-                                            .default_value = 0})};
-
+constexpr std::array kToolWords = list(
+    in_part(1, choice(ParameterId::WordCheck, "Tool measurement: 0 first, 1 check", 0, 1)),
+    status_parameter(), height_parameter(2),
+    in_part(3, choice(ParameterId::WordTeeth, "Measure the single teeth: 0 no, 1 yes", 0, 1, 0)));
 constexpr CycleOutput kLengthDeviation{115, "Deviation of the length", Unit::Length};
 constexpr CycleOutput kRadiusDeviation{116, "Deviation of the radius", Unit::Length};
 constexpr std::array k481Results{kLengthDeviation, kToolStatus};
@@ -132,9 +123,8 @@ CycleResult<std::vector<Spindle>> touches_of(const CycleContext& context, bool t
   if (!tool_order_of(context).single_teeth) return touches;
   const Tool& tool = *context.state().active_tool();
   constexpr int kMostTeeth = 20;
-  if (tool.teeth < 1 || tool.teeth > kMostTeeth) {
+  if (tool.teeth < 1 || tool.teeth > kMostTeeth)
     return nc_error(1109, "single teeth are measured with 1 to 20 of them in the column CUT");
-  }
   touches.insert(touches.end(), static_cast<std::size_t>(tool.teeth), Spindle::Stands);
   return touches;
 }
@@ -200,21 +190,13 @@ constexpr std::string_view kNotSimulated =
     "The tool is a cylinder and its teeth are alike: measuring single teeth repeats the touch for "
     "each. The state of the spindle does not change.";
 
-CycleResult<void> measure_tool_length(const CycleContext& context) {
-  return measure(context, true, false);
-}
-CycleResult<void> measure_tool_radius(const CycleContext& context) {
-  return measure(context, false, true);
-}
-CycleResult<void> measure_tool(const CycleContext& context) { return measure(context, true, true); }
-
 /// The cycle of a number in its Q-form or in sub-lines.
 constexpr TouchProbeCycle tool_measurement(std::uint16_t number, std::string_view name,
                                            std::span<const CycleOutput> results,
-                                           CycleFunction measure) {
+                                           CycleFunction function) {
   const std::span<const CycleParameter> words = kToolWords;
   return cycle(number, name, CycleKind::Tool, number < 100 ? words : kParameters, results,
-               errors::kTouching | errors::kToolMeasuring, measure, kSimulated, kNotSimulated);
+               errors::kTouching | errors::kToolMeasuring, function, kSimulated, kNotSimulated);
 }
 
 constexpr std::array k485Parameters{kToolMeasurement, parameter::kClearanceHeight};
@@ -280,12 +262,12 @@ constexpr TouchProbeCycle kCycles[] = {
     cycle(484, "CALIBRATE IR TT", CycleKind::Tool, k484Parameters, {},
           errors::kTouching | errors::kToolMeasuring, calibrate_here, kCalibrationSimulated,
           kRunoutNotSimulated),
-    tool_measurement(31, "CAL. TOOL LENGTH", k481Results, measure_tool_length),
-    tool_measurement(32, "CAL. TOOL RADIUS", k482Results, measure_tool_radius),
-    tool_measurement(33, "MEASURE TOOL", k483Results, measure_tool),
-    tool_measurement(481, "CAL. TOOL LENGTH", k481Results, measure_tool_length),
-    tool_measurement(482, "CAL. TOOL RADIUS", k482Results, measure_tool_radius),
-    tool_measurement(483, "MEASURE TOOL", k483Results, measure_tool),
+    tool_measurement(31, "CAL. TOOL LENGTH", k481Results, with<measure, true, false>),
+    tool_measurement(32, "CAL. TOOL RADIUS", k482Results, with<measure, false, true>),
+    tool_measurement(33, "MEASURE TOOL", k483Results, with<measure, true, true>),
+    tool_measurement(481, "CAL. TOOL LENGTH", k481Results, with<measure, true, false>),
+    tool_measurement(482, "CAL. TOOL RADIUS", k482Results, with<measure, false, true>),
+    tool_measurement(483, "MEASURE TOOL", k483Results, with<measure, true, true>),
     cycle(485, "MEASURE LATHE TOOL", CycleKind::Tool, k485Parameters, k485Results,
           errors::kTouching | errors::kToolMeasuring | ErrorSet{1097}, measure_lathe_tool,
           k485Simulated, k485NotSimulated)};

@@ -21,16 +21,11 @@ CycleResult<void> check(const MachineState& state, ToolForm form = ToolForm::Mil
   if (!state.tool.axis) return make_fault(FaultKind::ToolAxisMissing);
   const machine::Tool* tool = state.active_tool();
   if (tool == nullptr) return make_fault(FaultKind::NoTool);
-  if (tool->is_probe()) {
-    return nc_error(1093, fmt::format("tool {} is a touch probe", tool->number));
-  }
-  if (form == ToolForm::Mill && tool->lathe) {
-    return nc_error(1093, fmt::format("tool {} is a lathe tool: 485 measures it", tool->number));
-  }
-  if (form == ToolForm::Lathe && !tool->lathe) {
-    return nc_error(1093,
-                    fmt::format("tool {} is no lathe tool: it has no ZL and XL", tool->number));
-  }
+  if (tool->is_probe()) return nc_error(1093, "tool {} is a touch probe", tool->number);
+  if (form == ToolForm::Mill && tool->lathe)
+    return nc_error(1093, "tool {} is a lathe tool: 485 measures it", tool->number);
+  if (form == ToolForm::Lathe && !tool->lathe)
+    return nc_error(1093, "tool {} is no lathe tool: it has no ZL and XL", tool->number);
   if (state.tool.axis != Axis::Z) return nc_error(1079, "the TT is touched along Z");
   const Vec3 up = unit_vector(Axis::Z);
   const Vec3 height = unit(state.frames.direction_to_machine(up));
@@ -48,9 +43,9 @@ CycleResult<void> check_lathe(const MachineState& state) {
     return nc_error(1097, "a lathe tool is measured on a cuboid; the tool touch probe has a disc");
   }
   if (lathe.tip_z() <= 0) return {};
-  return nc_error(1109, fmt::format("the tip of tool {} points up (TO {}): the tool touch probe "
-                                    "has no side for it",
-                                    state.tool.number, lathe.orientation));
+  return nc_error(1109,
+                  "the tip of tool {} points up (TO {}): the tool touch probe has no side for it",
+                  state.tool.number, lathe.orientation);
 }
 
 /// 0 in the tolerance switches a check off; limits are inclusive.
@@ -62,8 +57,7 @@ ToolStatus judge(Length deviation, double tolerance, double breakage) {
   return exceeds(tolerance) ? ToolStatus::Worn : ToolStatus::WithinTolerance;
 }
 
-/// The feed of a turning tool: a measuring tolerance each turn, at the speed that its edge may
-/// have.
+/// The feed of a turning tool: a measuring tolerance each turn, at the speed of its edge.
 double probing_feed(double tool_radius, Spindle spindle) {
   using namespace tt_parameters;
   if (spindle == Spindle::Stands) return kProbingFeed;
@@ -173,8 +167,8 @@ CycleResult<Vec3> ToolProbing::probe(const Vec3& direction, Spindle spindle) {
                                        .retract_feed = Feed::rapid()});
   if (contact) return contact->tip_machine;
   if (contact.error().kind != FaultKind::NoContact) return contact.error();
-  return nc_error(1014, fmt::format("tool {} does not reach the tool touch probe within {} mm",
-                                    state.tool.number, tt_parameters::kLongestProbing));
+  return nc_error(1014, "tool {} does not reach the tool touch probe within {} mm",
+                  state.tool.number, tt_parameters::kLongestProbing);
 }
 
 }  // namespace fitgauge::probing

@@ -3,9 +3,44 @@
 #include <ranges>
 
 #include "nc/probing/measured_value.hpp"
-#include "nc/probing/touch/part_here.hpp"
 
 namespace fitgauge::probing {
+namespace {
+
+/// Between two faces around the corner of a stud, or through the centre of a pocket.
+void go_around(Touch& next, const Touch& last, Side side, const Vec3& centre) {
+  const bool last_along_main = last.direction.x != 0;
+  next.waypoints = {side == Side::Inside ? centre
+                    : last_along_main    ? Vec3{last.start.x, next.start.y, centre.z}
+                                         : Vec3{next.start.x, last.start.y, centre.z}};
+}
+
+std::string described(const machine::PartFeature& part) {
+  const auto [x, y] = part.length;
+  if (part.diameter != 0)
+    return fmt::format("{} of {} mm", part.is_boss ? "boss" : "bore", part.diameter);
+  if (x == 0 || y == 0) return fmt::format("slot of {:.10g} mm", std::max(x, y));
+  return fmt::format("{} of {:.10g} x {:.10g} mm", part.is_boss ? "boss" : "pocket", x, y);
+}
+
+/// Whether a cycle for such a part may be written for this one.
+bool is_like(const machine::PartFeature& part, const PlannedPlace& place) {
+  if (!place.length) return part.diameter != 0;
+  if (part.diameter != 0) return false;
+  const auto is_near = [&](std::size_t axis) {
+    const double nominal = place.length->at(axis);
+    return nominal == 0 || std::abs(part.length.at(axis) - nominal) <= nominal / 2;
+  };
+  return is_near(0) && is_near(1);
+}
+
+/// 421 and 422, 412 and 413, 408 and 409: inside and outside.
+std::string for_other_side(int cycle, bool is_boss) {
+  if (cycle == 405) return "cycle 405 probes in a bore";
+  return fmt::format("cycle {}", is_boss ? cycle + 1 : cycle - 1);
+}
+
+}  // namespace
 
 std::vector<Touch> circle_touches(const CirclePlan& plan) {
   const double outwards = plan.side == Side::Inside ? 1 : -1;
@@ -31,9 +66,8 @@ std::vector<Touch> circle_touches(const CirclePlan& plan) {
 
 std::vector<Point2> ball_centres(std::span<const Contact> contacts) {
   std::vector<Point2> centres;
-  for (const Contact& contact : contacts) {
+  for (const Contact& contact : contacts)
     centres.push_back({contact.ball_centre.x, contact.ball_centre.y});
-  }
   return centres;
 }
 
@@ -118,6 +152,79 @@ CycleResult<ProbedCircle> probe_bolt_circle(const CycleContext& context, Probing
   const auto holes = TRY(probe_hole_centres(context, motion, nominal));
   const auto circle = TRY(fit_circle(holes));
   return ProbedCircle{circle, circle_form(holes, circle, context.number(291))};
+}
+
+std::array<Touch, 2> width_touches(Side side, const Vec3& centre, std::size_t axis, double width,
+                                   double start_distance) {
+  const double outwards = side == Side::Inside ? 1 : -1;
+  const double offset = std::max(0.0, width / 2 - outwards * start_distance);
+  Vec3 up;
+  up[axis] = 1;
+  return {Touch{.start = centre + up * offset, .direction = up * outwards},
+          Touch{.start = centre - up * offset, .direction = up * -outwards}};
+}
+
+CycleResult<Rectangle> probe_rectangle(const CycleContext& context, ProbingMotion& motion,
+                                       Side side, Point2 at, const std::array<double, 2>& length) {
+  const Vec3 centre{at.x, at.y, context.number(261)};
+  const double distance = motion.start_distance();
+  const auto main = width_touches(side, centre, 0, length[0], distance);
+  const auto secondary = width_touches(side, centre, 1, length[1], distance);
+  // Around the rectangle, so that no way leads across it.
+  std::array touches{main[0], secondary[0], main[1], secondary[1]};
+  for (std::size_t i = 1; i < touches.size(); ++i) {
+    if (context.whole(301) == 1) {
+      touches[i].transit = Transit::ClearanceHeight;
+    } else {
+      go_around(touches[i], touches[i - 1], side, centre);
+    }
+  }
+  const auto contacts = TRY(touch_part(context, motion, touches, {side, centre, 0, length}));
+  const double x1 = contacts[0].surface.x;
+  const double x2 = contacts[2].surface.x;
+  const double y1 = contacts[1].surface.y;
+  const double y2 = contacts[3].surface.y;
+  return Rectangle{{(x1 + x2) / 2, (y1 + y2) / 2}, {x1 - x2, y1 - y2}};
+}
+
+CycleFault with_part(CycleFault fault, const CycleContext& context, const WorkingPlane& plane,
+                     std::span<const PlannedPlace> places) {
+  const bool is_touch =
+      fault.kind == machine::FaultKind::NoContact || fault.kind == machine::FaultKind::Collision;
+  constexpr double kFar = 0.5;
+  if (!is_touch) return fault;
+  for (const PlannedPlace& place : places) {
+    const bool is_outside = place.side == Side::Outside;
+    auto parts = context.machine.part_features(plane.to_input(place.centre));
+    std::erase_if(parts, [&](const auto& part) { return !is_like(part, place); });
+    if (parts.empty()) continue;
+    const auto same = std::ranges::find(parts, is_outside, &machine::PartFeature::is_boss);
+    const machine::PartFeature& here = same == parts.end() ? parts.front() : *same;
+    const bool is_other = here.is_boss != is_outside;
+    const bool has_size = place.diameter != 0 && here.diameter != 0;
+    if (!is_other && (!has_size || std::abs(here.diameter - place.diameter) <= kFar)) continue;
+    const std::string remedy = !is_other ? fmt::format("Q262 is {} mm", place.diameter)
+                               : !place.other_side.empty()
+                                   ? place.other_side
+                                   : for_other_side(context.descriptor().number, here.is_boss);
+    fault.text += fmt::format("; the setup has a {} here: {}", described(here), remedy);
+    return fault;
+  }
+  return fault;
+}
+
+CycleResult<std::vector<Contact>> touch_part(const CycleContext& context, ProbingMotion& motion,
+                                             std::span<const Touch> touches,
+                                             const PlannedPlace& place) {
+  auto contacts = motion.touch_all(touches, context.number(260));
+  if (contacts) return contacts;
+  return with_part(contacts.error(), context, motion.plane(), std::span(&place, 1));
+}
+
+PlannedPlace width_place(Side side, const Vec3& centre, std::size_t axis, double width) {
+  std::array<double, 2> length{};
+  length.at(axis) = width;
+  return {side, centre, 0, length};
 }
 
 }  // namespace fitgauge::probing

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "nc/probing/measuring_record.hpp"
 #include "nc/probing/touch/fits.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 
@@ -62,5 +61,47 @@ CycleResult<std::vector<Point2>> probe_hole_centres(const CycleContext& context,
 /// The circle through three holes around Q273 and Q274, of the parameters Q262, Q291, Q292, Q293,
 /// Q261, Q260.
 CycleResult<ProbedCircle> probe_bolt_circle(const CycleContext& context, ProbingMotion& motion);
+
+struct Rectangle {
+  Point2 centre;
+  std::array<double, 2> length{};  ///< along main and secondary axis
+};
+
+/// Touches the rectangle of that nominal centre and length (main, secondary axis) by Q261, Q320,
+/// Q260 and Q301: along the axes of the plane, twice along each, through its nominal centre;
+/// paraxially at measuring height or over the clearance height. A pocket too small for the start
+/// distance is touched from its centre.
+CycleResult<Rectangle> probe_rectangle(const CycleContext& context, ProbingMotion& motion,
+                                       Side side, Point2 centre,
+                                       const std::array<double, 2>& length);
+
+/// The two touches along one axis (0 main, 1 secondary) of a slot, pocket, ridge or stud of the
+/// nominal width around its centre, first the one at the higher coordinate.
+std::array<Touch, 2> width_touches(Side side, const Vec3& centre, std::size_t axis, double width,
+                                   double start_distance);
+
+/// A place that a cycle touches around.
+struct PlannedPlace {
+  Side side = Side::Inside;
+  Vec3 centre;                                    ///< in plane coordinates
+  double diameter = 0;                            ///< Q262, if the cycle has it
+  std::optional<std::array<double, 2>> length{};  ///< of what is not round; 0: not known
+  std::string other_side{};                       ///< the remedy if the part has the other side
+};
+
+/// Adds to the error of a touch the bore, pocket or boss of the setup at the first place that has
+/// another than the cycle expects, and the remedy: the cycle for it, or the diameter that is
+/// written.
+CycleFault with_part(CycleFault fault, const CycleContext& context, const WorkingPlane& plane,
+                     std::span<const PlannedPlace> places);
+
+/// Touches around a place as ProbingMotion::touch_all, with the clearance height Q260. @errors with
+/// the part that is there.
+CycleResult<std::vector<Contact>> touch_part(const CycleContext& context, ProbingMotion& motion,
+                                             std::span<const Touch> touches,
+                                             const PlannedPlace& place);
+
+/// The place of a slot or ridge whose width lies along an axis of the plane.
+PlannedPlace width_place(Side side, const Vec3& centre, std::size_t axis, double width);
 
 }  // namespace fitgauge::probing

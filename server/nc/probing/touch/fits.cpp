@@ -80,9 +80,8 @@ CycleResult<Circle> fit_circle(std::span<const Point2> points) {
   const Centred all(flat);
   auto circle = algebraic_fit(all);
   if (!circle) return nc_error(1081, "the touched points lie on a straight line");
-  if (!gauss_newton(*circle, kSettled, [&](const VectorXd& at) { return from_circle(all, at); })) {
+  if (!gauss_newton(*circle, kSettled, [&](const VectorXd& at) { return from_circle(all, at); }))
     return nc_error(1081, "no circle passes near the touched points");
-  }
   const Linearised found = from_circle(all, *circle);
   return Circle{{(*circle)[0] * all.size + all.mean.x, (*circle)[1] * all.size + all.mean.y},
                 (*circle)[2] * all.size,

@@ -44,15 +44,12 @@ double ProbedLine::angle_deg() const {
 
 CycleResult<ProbedLine> probe_line(const CycleContext& context, ProbingMotion& motion) {
   const auto direction = TRY(probing_direction(context));
-  const double height = context.number(261);
-  const std::array nominal{Vec3{context.number(263), context.number(264), height},
-                           Vec3{context.number(265), context.number(266), height}};
+  const std::array nominal{place_of(context, 263, 264, 261), place_of(context, 265, 266, 261)};
   ProbedLine line;
   line.axis = static_cast<std::size_t>(context.whole(272) - 1);
   line.across = line.axis == 0 || (line.axis == 2 && nominal[0].x == nominal[1].x) ? 1 : 0;
-  if (nominal[0][line.across] == nominal[1][line.across]) {
+  if (nominal[0][line.across] == nominal[1][line.across])
     return nc_error(1081, "both points lie at the same place of the line");
-  }
   Vec3 along;
   along[line.axis] = direction;
   const Vec3 back = along * motion.start_distance();
@@ -63,9 +60,8 @@ CycleResult<ProbedLine> probe_line(const CycleContext& context, ProbingMotion& m
   const auto contacts = TRY(motion.touch_all(touches, context.number(260)));
   line.first = contacts.front().ball_centre;
   line.second = contacts.back().ball_centre;
-  for (std::size_t k = 0; k < 2; ++k) {
+  for (std::size_t k = 0; k < 2; ++k)
     line.coordinates[k] = {nominal[k][line.axis], contacts[k].surface[line.axis]};
-  }
   return line;
 }
 
@@ -78,10 +74,9 @@ CycleResult<int> probing_direction(const Arguments& arguments) {
 CycleResult<TouchedCoordinate> touch_coordinate(const CycleContext& context,
                                                 ProbingMotion& motion) {
   const auto direction = TRY(probing_direction(context));
-  TouchedCoordinate touched{
-      .axis = static_cast<std::size_t>(context.whole(272) - 1),
-      .nominal = {context.number(263), context.number(264), context.number(261)},
-      .surface = {}};
+  TouchedCoordinate touched{.axis = static_cast<std::size_t>(context.whole(272) - 1),
+                            .nominal = place_of(context, 263, 264, 261),
+                            .surface = {}};
   Vec3 along;
   along[touched.axis] = direction;
   touched.surface = TRY(touch(context, motion, touched.nominal, along));
@@ -97,9 +92,8 @@ CycleResult<Point2> intersection(Point2 a1, Point2 a2, Point2 b1, Point2 b2) {
   const Point2 a{a2.x - a1.x, a2.y - a1.y};
   const Point2 b{b2.x - b1.x, b2.y - b1.y};
   const double across = a.x * b.y - a.y * b.x;
-  if (std::abs(across) <= tolerance::kParallelEdges * std::hypot(a.x, a.y) * std::hypot(b.x, b.y)) {
+  if (std::abs(across) <= tolerance::kParallelEdges * std::hypot(a.x, a.y) * std::hypot(b.x, b.y))
     return nc_error(1081, "the measured lines do not meet");
-  }
   const double part = ((b1.x - a1.x) * b.y - (b1.y - a1.y) * b.x) / across;
   return Point2{a1.x + part * a.x, a1.y + part * a.y};
 }

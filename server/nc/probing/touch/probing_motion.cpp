@@ -148,12 +148,11 @@ CycleResult<void> refuse_mirror_and_scaling(const machine::Frames& frames) {
 
 void publish_touch(const MachineState& state, CycleHost& host, const ContactPoint& contact) {
   const Vec3 nose = state.frames.from_machine(contact.nose.linear, CoordinateSystem::Workpiece);
-  std::uint16_t number = 115;
-  for (const double coordinate : {nose.x, nose.y, nose.z}) set_length(host, number++, coordinate);
+  set_lengths(host, 115, {nose.x, nose.y, nose.z});
+  std::uint16_t number = 118;
   for (const machine::Axis axis : {machine::Axis::A, machine::Axis::B, machine::Axis::C}) {
-    if (state.ranges[index(axis)] && number <= 119) {
+    if (state.ranges[index(axis)] && number <= 119)
       host.set_q(number++, contact.nose[axis], Unit::Angle);
-    }
   }
   host.touched(contact);
 }

@@ -1,11 +1,20 @@
 #pragma once
 
-#include "nc/machine/machine.hpp"
+#include "nc/probing/touch/fits.hpp"
 #include "nc/probing/touch_probe_cycle.hpp"
 
 namespace fitgauge::probing {
 
 using machine::Vec3;
+
+/// A point of the working plane, by the parameters of its coordinates.
+inline Point2 point_of(const Arguments& arguments, int main, int secondary) {
+  return {arguments.number(main), arguments.number(secondary)};
+}
+/// A point in plane coordinates, likewise.
+inline Vec3 place_of(const Arguments& arguments, int main, int secondary, int probe) {
+  return {arguments.number(main), arguments.number(secondary), arguments.number(probe)};
+}
 
 /// The main and the secondary axis of the working plane and the probe axis across it. Cycles
 /// compute in plane coordinates: x along the main axis, y along the secondary axis, z along the

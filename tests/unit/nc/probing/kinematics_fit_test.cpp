@@ -177,8 +177,8 @@ TEST_CASE("locations of any machine are found at once, at poses that nobody meas
     CHECK(c.seen_elsewhere(c.model()) > 1e-2);
     CHECK(c.seen_elsewhere(fit.corrected) < 1e-6);
     for (std::size_t k = 0; k < axes.size(); ++k) {
-      REQUIRE(fit.errors[k].location.has_value());
-      CHECK(norm(fit.errors[k].location->value - c.location_error(axes[k])) < 1e-6);
+      REQUIRE(fit.errors[k].location().has_value());
+      CHECK(norm(fit.errors[k].location()->value - c.location_error(axes[k])) < 1e-6);
       CHECK(fit.after[k].deviation < 1e-7);
     }
     const Kinematics old = one_after_the_other(groups, axes, c.model());
@@ -226,12 +226,12 @@ TEST_CASE("zeros of axes that carry others are found with the rest") {
     // Where no axis is tilted itself, the tilt it seems to have is its carrier's zero.
     Case straight(seed, {.zeros = true});
     for (const AxisErrors& errors : fitted(straight, {.zeros = true}).errors) {
-      if (!errors.zero_deg) continue;
+      if (!errors[ErrorKind::Zero]) continue;
       ++found;
       Vec3 planted;
       const std::size_t letter = index(errors.axis) - 3;
       planted[letter] = straight.real().zero_deg[letter];
-      CHECK(norm(errors.zero_deg->value - planted) < 1e-6);
+      CHECK(norm(errors[ErrorKind::Zero]->value - planted) < 1e-6);
     }
   }
   CHECK(wrong_by_locations > static_cast<int>(seeds()) * 9 / 10);
@@ -248,7 +248,7 @@ TEST_CASE("with a scatter of 1 um the claimed uncertainty covers 95 %") {
     const KinematicsFit fit =
         fit_kinematics(c.measured(0.001), c.model(), kProbe, axes, {.directions = false});
     for (std::size_t k = 0; k < axes.size(); ++k) {
-      const FoundError& found = *fit.errors[k].location;
+      const FoundError& found = *fit.errors[k].location();
       const Vec3 planted = c.location_error(axes[k]);
       if (norm(planted) > 0.02) CHECK(found.is_significant);
       const Vec3 off = found.value - planted;
@@ -279,8 +279,8 @@ TEST_CASE("an error below twice its uncertainty is left as it is") {
   const KinematicsFit all = fit_kinematics(groups, right, kProbe, axes, {});
   CHECK(all.is_corrected);
   for (std::size_t k = 0; k < axes.size(); ++k) {
-    CHECK(fit.errors[k].location->size == all.errors[k].location->size);
-    CHECK(fit.errors[k].location->size < 2 * fit.errors[k].location->standard_uncertainty);
+    CHECK(fit.errors[k].location()->size == all.errors[k].location()->size);
+    CHECK(fit.errors[k].location()->size < 2 * fit.errors[k].location()->standard_uncertainty);
   }
 }
 
