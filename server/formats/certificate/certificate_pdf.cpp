@@ -152,9 +152,8 @@ void write_line(Writer& out, const Line& line, Columns columns) {
     out.pdf().open("TD");
     if (!text.empty()) out.pdf().mark(text);
     out.pdf().close();
-    if (columns[i].text == nullptr && line.place) {
+    if (columns[i].text == nullptr && line.place)
       out.pdf().decorate(drawing(*line.place, x, y - kSmall * 1.2F, width - kGap, kSmall * 0.8F));
-    }
     x += width;
   }
   out.pdf().close();

@@ -52,9 +52,8 @@ Result<Picture> read_picture(const std::string& path) {
   if (file.size() < kHead || !file.starts_with("\x89PNG\r\n\x1A\n"))
     return refused("must be a PNG file");
   Picture picture{.width = number(16), .height = number(20), .colours = file[25] == 0 ? 1 : 3};
-  if (file.size() > kMostBytes || picture.width > kMostPixels || picture.height > kMostPixels) {
+  if (file.size() > kMostBytes || picture.width > kMostPixels || picture.height > kMostPixels)
     return refused("must have at most 1 MiB and 2000 x 2000 pixels: save it smaller");
-  }
   if (file[24] != 8 || (file[25] != 0 && file[25] != 2) || file[28] != 0) {
     return refused(
         "must be grey or RGB with 8 bits, neither transparent nor interlaced: save it again");

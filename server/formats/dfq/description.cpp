@@ -193,9 +193,8 @@ Result<void> Description::add(const FieldLine& field, std::uint32_t line) {
     characteristics_.resize(count);
     return {};
   }
-  if (!stated_count_) {
+  if (!stated_count_)
     return wrong("comes before K0100, the number of characteristics, which begins a DFQ");
-  }
   auto text = TRY(decoded(field.text));
   switch (level_of(field.number)) {
     case Level::Part: {
@@ -275,9 +274,8 @@ std::string_view user_text(const Description& description, const Characteristic&
   while (!rest.empty()) {
     const std::string_view one = rest.substr(0, rest.find(';'));
     rest.remove_prefix(std::min(rest.size(), one.size() + 1));
-    if (one.size() > name.size() && one.starts_with(name) && one[name.size()] == '=') {
+    if (one.size() > name.size() && one.starts_with(name) && one[name.size()] == '=')
       return one.substr(name.size() + 1);
-    }
   }
   return {};
 }
@@ -303,16 +301,14 @@ Result<Length> parse_length(std::string_view text, LengthUnit unit) {
   if (unit == LengthUnit::Inch) {
     // 25.4 mm are 254 tenths: of 1e-9 inch, divided by 10,000.
     constexpr std::int64_t kMost = 36'000'000'000'000'000;
-    if (nanometres > kMost || nanometres < -kMost) {
+    if (nanometres > kMost || nanometres < -kMost)
       return Error{ErrorCode::LengthOutOfRange, "is too long"};
-    }
     const std::int64_t half = nanometres < 0 ? -5'000 : 5'000;
     nanometres = (nanometres * 254 + half) / 10'000;
   }
   const Length length = Length::nanometres(nanometres);
-  if (length > kLongest || length < -kLongest) {
+  if (length > kLongest || length < -kLongest)
     return Error{ErrorCode::LengthOutOfRange, "is too long"};
-  }
   return length;
 }
 

@@ -25,12 +25,6 @@ std::string_view cut(std::string_view text, std::size_t characters) {
   return trim(text.substr(0, at));
 }
 
-template <class Fields>
-Result<void> check_all(const Fields& fields) {
-  for (const auto& [number, text] : fields) TRY(check_text(number, text));
-  return {};
-}
-
 int decimals_of(std::string_view number) {
   const std::size_t point = number.find('.');
   return point == std::string_view::npos ? 0 : static_cast<int>(number.size() - point - 1);
@@ -155,9 +149,8 @@ DfqWriter::Fields DfqWriter::characteristic_fields(const OutgoingValue& value) {
     if (!user.empty()) user += ';';
     user += what;
   };
-  if (value.class_name.empty() && !value.feature.empty()) {
+  if (value.class_name.empty() && !value.feature.empty())
     say(fmt::format("feature={}", value.feature));
-  }
   if (!value.quantity.empty()) say(fmt::format("quantity={}", value.quantity));
   if (!value.class_name.empty() && !split) say(fmt::format("class={}", value.class_name));
   if (!value.rule.empty()) say(std::string(value.rule));
@@ -207,9 +200,8 @@ std::size_t DfqWriter::place_of_characteristic(std::size_t part, const Fields& f
   if (is_new) {
     Described described{.part = part, .fields = fields};
     for (const auto& [number, text] : fields) {
-      if (field_info(number)->type == FieldType::Number) {
+      if (field_info(number)->type == FieldType::Number)
         described.decimals = std::max(described.decimals, decimals_of(text));
-      }
     }
     characteristics_.push_back(std::move(described));
   }
@@ -230,7 +222,7 @@ Result<void> DfqWriter::add(const OutgoingValue& value) {
                           {k::kBatch, std::string(value.subgroup)}};
   for (const Fields* fields :
        std::array<const Fields*, 4>{&part, &characteristic, &written.fields, &entries}) {
-    TRY(check_all(*fields));
+    for (const auto& [number, text] : *fields) TRY(check_text(number, text));
   }
   const std::string_view cavity = carried(comment, k::kCavity);
   written.cells = {format_mm(value.measured),
@@ -280,9 +272,8 @@ void DfqWriter::append_description(std::string& out,
     }
   }
   for (const Catalogue* catalogue : {&machines_, &gauges_, &operators_}) {
-    for (std::size_t i = 0; i < catalogue->entries.size(); ++i) {
+    for (std::size_t i = 0; i < catalogue->entries.size(); ++i)
       append(catalogue->field, i + 1, catalogue->entries[i]);
-    }
   }
 }
 
@@ -311,9 +302,8 @@ void DfqWriter::append_values(std::string& out, const std::vector<std::size_t>& 
     out += kLineEnd;
     for (; first != end; ++first) {
       const std::size_t index = indices[values_[first].characteristic];
-      for (const auto& [number, text] : values_[first].fields) {
+      for (const auto& [number, text] : values_[first].fields)
         out += fmt::format("K{:04}/{} {}{}", number, index, text, kLineEnd);
-      }
     }
   }
 }

@@ -183,9 +183,8 @@ bool Lines::next(Line& line) {
     if (size > 0 && from[size - 1] == '\r') --size;
     line.text = {from, size};
     line.number = number_;
-    if (has_nul_ && std::memchr(from, '\0', size) != nullptr) {
+    if (has_nul_ && std::memchr(from, '\0', size) != nullptr)
       return fail("has a byte 0: the file is damaged, or not a DFQ");
-    }
     if (!trim(line.text).empty()) return true;
   }
   return false;

@@ -127,9 +127,8 @@ Result<void> MeasurementCsv::take_value_fields(const ValueSet& set_of, const Val
       entry(k::kGaugeNumber, k::kGaugeName, set_of.cell(value, kGaugeCell));
   const std::string_view worker = set_of.cell(value, kOperatorCell);
   std::string_view name = entry(k::kOperatorName, k::kOperatorFirstName, worker);
-  if (const auto first = entry(k::kOperatorFirstName, k::kOperatorName, worker); first != name) {
+  if (const auto first = entry(k::kOperatorFirstName, k::kOperatorName, worker); first != name)
     name = texts_.emplace_back(fmt::format("{} {}", first, name));
-  }
   for (const auto& [place, text] :
        {std::pair(kSubgroup, batch), std::pair(kMachine, machine), std::pair(kGauge, gauge),
         std::pair(kOperator, name), std::pair(kPartId, set_of.field(value, k::kPartIdent)),
@@ -141,9 +140,8 @@ Result<void> MeasurementCsv::take_value_fields(const ValueSet& set_of, const Val
     if (level_of(number) != Level::Value || place >= kNames.size()) continue;
     std::string_view text = set_of.field(value, number);
     const auto* const cell = std::ranges::find(kCells, number);
-    if (cell != kCells.end()) {
+    if (cell != kCells.end())
       text = set_of.cell(value, static_cast<std::size_t>(cell - kCells.begin()));
-    }
     TRY(take(place, text));
   }
   return {};
@@ -189,9 +187,8 @@ Result<void> MeasurementCsv::append_value(const ValueSet& set_of, const Value& v
                    first_characters(text, 40));
   }
   row_[kMeasured] = texts_.emplace_back(format_mm(*measured));
-  if (const auto taken = take_value_fields(set_of, value); !taken) {
+  if (const auto taken = take_value_fields(set_of, value); !taken)
     return at_line(value.line, taken.error().message);
-  }
   take_comment(set_of, value, prepared);
   sheet::append_row(rows, row_);
   return {};
@@ -257,9 +254,8 @@ std::string MeasurementCsv::reason_against(const Characteristic& characteristic)
   if (!type.empty() && type != "0")
     return fmt::format("it is of type {} (K2004), not measured", type);
   const std::string_view unit = description.text(characteristic, k::kUnit);
-  if (!unit.empty() && !length_unit(unit)) {
+  if (!unit.empty() && !length_unit(unit))
     return fmt::format("its unit {} is not a length", first_characters(unit, 40));
-  }
   const std::string_view nominal = description.text(characteristic, k::kNominal);
   if (nominal.empty()) return "it has no nominal value (K2101)";
   const auto size = parse_length(nominal, LengthUnit::Millimetre);

@@ -58,9 +58,8 @@ Result<bool> Reader::next(ValueSet& set) {
     if (!field) return at_line(line.number, field.error().message);
     if (level_of(field->number) == Level::Value) break;
     TRY(check_end(line, &*field));
-    if (const auto added = description_.add(*field, line.number); !added) {
+    if (const auto added = description_.add(*field, line.number); !added)
       return at_line(line.number, added.error().message);
-    }
   }
   for (;;) {
     const std::size_t moves = lines_.moves();
@@ -175,9 +174,8 @@ Result<bool> Reader::add_field(const FieldLine& field, const Lines::Line& line, 
     set.values.add_up_to(&value + 1);
     set_apart(value, set);
     set.apart[value.first_cell] = field.text;
-    if (field.number == k::kSubgroupSize) {
+    if (field.number == k::kSubgroupSize)
       set.fields.push_back({field.index, field.number, field.text});
-    }
     return true;
   }
   if (field.index != 0 && of_field == set.values.end()) {

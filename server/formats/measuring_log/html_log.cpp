@@ -198,17 +198,15 @@ class HtmlReader {
     if (!has_values) spoil(begins_, fmt::format("the log of cycle {} has no values", log_.cycle));
     if (log_.cycle == 444 && has_actual_) {
       const LogValue& value = log_.values.front();
-      if (value.upper.has_value() != value.lower.has_value()) {
+      if (value.upper.has_value() != value.lower.has_value())
         spoil(begins_, "one limit of the point is missing");
-      }
     }
     if (!is_spoiled_) reading_.logs.push_back(std::move(log_));
   }
 
   void spoil(std::size_t at, std::string why) {
-    if (!is_spoiled_ && reading_.unread.size() < kMostUnread) {
+    if (!is_spoiled_ && reading_.unread.size() < kMostUnread)
       reading_.unread.push_back({line_of(at), std::move(why)});
-    }
     is_spoiled_ = true;
   }
 

@@ -69,9 +69,8 @@ bool ends_log(std::string_view line) {
 
 Quantity quantity_of(std::string_view label) {
   const bool is_centre = has_one(label, kCentre);
-  if (has_one(label, kSecondary)) {
+  if (has_one(label, kSecondary))
     return is_centre ? Quantity::CentreSecondary : Quantity::LengthSecondary;
-  }
   if (has_one(label, kMain)) return is_centre ? Quantity::CentreMain : Quantity::LengthMain;
   return Quantity::Size;
 }
@@ -158,9 +157,8 @@ class TextReader {
   using Entries = std::array<std::vector<Entry>, 6>;
 
   void begin(int cycle) {
-    if (is_inside_) {
+    if (is_inside_)
       spoil(0, fmt::format("the log of cycle {} has no end before the next one", log_.cycle));
-    }
     is_inside_ = true;
     is_spoiled_ = false;
     log_ = MeasuringLog{.cycle = cycle};
@@ -187,9 +185,8 @@ class TextReader {
                                       lower.find("0 = mm") == std::string_view::npos
                                   ? line.find(':')
                                   : line.rfind(':');
-    if (colon == std::string_view::npos) {
+    if (colon == std::string_view::npos)
       return spoil(number, fmt::format("'{}' is neither a title nor a value", line));
-    }
     std::string_view label = trim(line.substr(0, colon));
     const std::string_view value = trim(line.substr(colon + 1));
     std::string_view key = trim(lower.substr(0, colon));
@@ -248,24 +245,21 @@ class TextReader {
       log_.values.push_back(std::move(value));
     }
     match_limits();
-    if (log_.values.empty()) {
+    if (log_.values.empty())
       spoil(0, fmt::format("the log of cycle {} has no actual values", log_.cycle));
-    }
     const std::size_t limits = of(Section::Limits).size();
     const auto judged = std::ranges::count_if(
         log_.values, [](const LogValue& value) { return value.upper.has_value(); });
-    if (limits != 2 * static_cast<std::size_t>(judged)) {
+    if (limits != 2 * static_cast<std::size_t>(judged))
       spoil(0, fmt::format("the log of cycle {} has limits of no actual value", log_.cycle));
-    }
     log_.time = read_clock(date_, time_);
     if (!is_spoiled_) reading_.logs.push_back(std::move(log_));
   }
 
   /// The current log is unreadable; reports the first reason.
   void spoil(std::size_t line, std::string why) {
-    if (!is_spoiled_ && reading_.unread.size() < kMostUnread) {
+    if (!is_spoiled_ && reading_.unread.size() < kMostUnread)
       reading_.unread.push_back({line, std::move(why)});
-    }
     is_spoiled_ = true;
   }
 
@@ -288,9 +282,8 @@ class TextReader {
         if (!same(entry)) continue;
         const auto bound = bound_of(entry.label);
         const auto length = read_length(entry.digits, log_.inch);
-        if (!bound || !length) {
+        if (!bound || !length)
           return spoil(entry.line, fmt::format("'{}' is an unknown limit", entry.written));
-        }
         (*bound == Bound::Upper ? value.upper : value.lower) = length;
       }
       if (value.upper.has_value() != value.lower.has_value() ||

@@ -39,9 +39,8 @@ Result<void> Pattern::check_field(const std::string& name, std::size_t number) c
 
 Result<void> Pattern::take_constant(std::string_view line, std::size_t number) {
   const std::size_t equals = line.find('=');
-  if (equals == std::string_view::npos) {
+  if (equals == std::string_view::npos)
     return invalid(number, "a line above --- must be: field = value");
-  }
   const std::string name(trim(line.substr(0, equals)));
   TRY(check_field(name, number));
   constants_.emplace(name, trim(line.substr(equals + 1)));
@@ -87,9 +86,8 @@ Result<Pattern> Pattern::parse(std::string_view text) {
   }
   if (pattern.lines_.empty()) return invalid(1, "lines of a result must follow ---");
   const auto measured = pattern.check_field("measured_mm", 1);
-  if (measured || pattern.constants_.contains("measured_mm")) {
+  if (measured || pattern.constants_.contains("measured_mm"))
     return invalid(1, "no line below --- has {measured_mm}");
-  }
   return pattern;
 }
 

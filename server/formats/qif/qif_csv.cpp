@@ -141,9 +141,8 @@ std::string QifRows::reason_against(const Element& element, const Definitions::I
 
 Result<bool> QifRows::read_row(const Element& element, std::uint32_t line) {
   const auto* const item = definitions_.item(element.text("CharacteristicItemId"));
-  if (item == nullptr) {
+  if (item == nullptr)
     return aqdef::at_line(line, "measures a characteristic without an item in the document");
-  }
   if (const std::string reason = reason_against(element, *item); !reason.empty()) {
     if (options_.leaves_out_others) return false;
     return aqdef::at_line(line, reason + ": leave_out stores the other measurements");
@@ -242,9 +241,8 @@ void Definitions::take(std::string_view list, const Element& element) {
     };
     definition.is_limit = is_true("Tolerance/DefinedAsLimit");
     if (is_true("EnvelopeRequirement")) definition.envelope = "required";
-    for (const auto& fits : element.find("LimitsAndFitsSpecification")) {
+    for (const auto& fits : element.find("LimitsAndFitsSpecification"))
       definition.class_name = fits.text("FormVariance") + fits.text("Grade");
-    }
     for (const auto& [name, text] : element.named_attributes()) {
       if (name == "tolerance_class") definition.class_name = text;
       if (name == "feature") definition.feature = text;

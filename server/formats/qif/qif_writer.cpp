@@ -9,9 +9,8 @@ using Texts = std::vector<std::pair<std::string_view, std::string>>;
 std::string attributes(const Texts& texts) {
   if (texts.empty()) return {};
   std::string out = fmt::format("<Attributes n=\"{}\">", texts.size());
-  for (const auto& [name, text] : texts) {
+  for (const auto& [name, text] : texts)
     out += fmt::format("<AttributeStr name=\"{}\" value=\"{}\"/>", name, xml_text(text));
-  }
   return out += "</Attributes>";
 }
 
@@ -64,12 +63,10 @@ std::string_view word(Status status) {
 std::uint32_t QifWriter::item_of(const OutgoingValue& value) {
   Texts of_definition;
   if (!value.feature.empty()) of_definition.emplace_back("feature", value.feature);
-  if (value.quantity != gauging::Quantity::Diameter) {
+  if (value.quantity != gauging::Quantity::Diameter)
     of_definition.emplace_back("quantity", word(value.quantity));
-  }
-  if (!value.class_name.empty()) {
+  if (!value.class_name.empty())
     of_definition.emplace_back("tolerance_class", std::string(value.class_name));
-  }
   std::string modifiers =
       value.has_envelope ? "<EnvelopeRequirement>true</EnvelopeRequirement>" : "";
   if (std::ranges::find(kDeterminations, value.size_operator) != std::end(kDeterminations)) {

@@ -89,9 +89,8 @@ std::string Element::own_text() const {
 
 std::vector<std::pair<std::string, std::string>> Element::named_attributes() const {
   std::vector<std::pair<std::string, std::string>> named;
-  for (const Element& each : find("Attributes/*")) {
+  for (const Element& each : find("Attributes/*"))
     named.emplace_back(each.attribute_as_it_is("name"), each.attribute_as_it_is("value"));
-  }
   return named;
 }
 
@@ -202,9 +201,8 @@ struct XmlReader::State {
         fail(fmt::format("has more than {} attributes", kMostAttributes));
         return;
       }
-      if (std::string_view(*attributes).find(kNamespaceEnd) == std::string_view::npos) {
+      if (std::string_view(*attributes).find(kNamespaceEnd) == std::string_view::npos)
         event.attributes.emplace_back(attributes[0], attributes[1]);
-      }
     }
   }
 

@@ -134,9 +134,8 @@ Result<void> append_as_given(std::string& out, std::string_view line) {
     out += line;
     return {};
   }
-  if (record->text_of("source") != "gauge") {
+  if (record->text_of("source") != "gauge")
     return Error{ErrorCode::CsvMalformed, std::string(kOfSimulation)};
-  }
   const bool has_drawn_limits = record->text_of("basis") == "explicit";
   char before = '{';
   for (const auto& [member, value] : record->members) {

@@ -56,9 +56,8 @@ std::string ShopRows::header_of(const Record& record) {
     basis_ = place("basis");
     source_ = place("source");
   }
-  for (const std::string& column : record.cells) {
+  for (const std::string& column : record.cells)
     fields_.push_back(is_export ? std::string(field_of_export(column, true)) : field_of(column));
-  }
   has_clock_ = std::ranges::find(fields_, kDate) != fields_.end();
   std::string header;
   auto append = [&header, is_first = true](std::string_view name) mutable {
@@ -147,9 +146,8 @@ Result<void> ShopRows::read_header() {
     if (said) separator = said;
     records_.pass_line(first);
   }
-  if (records_.is_at_end()) {
+  if (records_.is_at_end())
     return at_table_line(ErrorCode::CsvMalformed, records_.line(), "must have the column names");
-  }
   records_.set_separator(separator.value_or(separator_of(first)));
   TRY(records_.next(record_));
   // After the header, so that the next lines keep their numbers.

@@ -152,13 +152,11 @@ Result<Encoding> detected_encoding(const Read& read) {
     const auto count = TRY(read_on(read, bytes));
     const bool is_at_end = count == 0;
     if (!is_begun && !is_at_end && bytes.size() < kLooked) continue;
-    if (!std::exchange(is_begun, true) && (has_utf16_mark(bytes) || looks_like_utf16(bytes))) {
+    if (!std::exchange(is_begun, true) && (has_utf16_mark(bytes) || looks_like_utf16(bytes)))
       return Encoding::Utf16;
-    }
     bytes.erase(0, valid_utf8(bytes));
-    if (bytes.size() >= kLongestCharacter || (is_at_end && !bytes.empty())) {
+    if (bytes.size() >= kLongestCharacter || (is_at_end && !bytes.empty()))
       return Encoding::Windows1252;
-    }
     if (is_at_end) return Encoding::Utf8;
   }
 }
@@ -171,9 +169,8 @@ Result<void> Utf8Input::fill() {
   if (std::exchange(is_begun_, true)) return {};
   is_big_ = is_big_endian(bytes_);
   if (encoding_ == Encoding::Utf16 && has_utf16_mark(bytes_)) bytes_.erase(0, kBigMark.size());
-  if (encoding_ == Encoding::Utf8 && bytes_.starts_with(kUtf8Mark)) {
+  if (encoding_ == Encoding::Utf8 && bytes_.starts_with(kUtf8Mark))
     bytes_.erase(0, kUtf8Mark.size());
-  }
   return {};
 }
 

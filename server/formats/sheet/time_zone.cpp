@@ -165,9 +165,8 @@ Result<TimeZone> TimeZone::load(std::string_view name) {
 
 Result<TimeZone> TimeZone::parse(std::string_view all) {
   const Error broken = no_zone("the file is not a time zone (TZif, version 2 or later)");
-  if (!all.starts_with("TZif") || all.size() > kLargestFile || all.size() < 44 || all[4] < '2') {
+  if (!all.starts_with("TZif") || all.size() > kLargestFile || all.size() < 44 || all[4] < '2')
     return broken;
-  }
   // The first block is for old readers: 32-bit times.
   Bytes bytes(all);
   const Header old = take_header(bytes);
@@ -228,9 +227,8 @@ std::optional<TimeZone::Rule> TimeZone::parse_rule(std::string_view text) {
       if (!clock) return std::nullopt;
       day->seconds = *clock;
     }
-    if (day->month < 1 || day->month > 12 || day->week < 1 || day->week > 5 || day->weekday > 6) {
+    if (day->month < 1 || day->month > 12 || day->week < 1 || day->week > 5 || day->weekday > 6)
       return std::nullopt;
-    }
   }
   return text.empty() ? std::optional(rule) : std::nullopt;
 }
@@ -247,9 +245,8 @@ std::int64_t TimeZone::at_in_year(const RuleDay& day, std::int64_t year) {
 }
 
 std::int64_t TimeZone::offset_at(std::int64_t utc) const {
-  if (changes_.empty() || utc < changes_.front().at) {
+  if (changes_.empty() || utc < changes_.front().at)
     return changes_.empty() && rule_ && !rule_->daylight ? rule_->standard : first_offset_;
-  }
   const auto next =
       std::upper_bound(changes_.begin(), changes_.end(), utc,
                        [](std::int64_t at, const Change& change) { return at < change.at; });

@@ -393,9 +393,8 @@ class Walker {
                          word(size.quantity));
     }
     for (const std::string_view word : {"theoretical", "auxiliary", "basic", "reference"}) {
-      if (std::ranges::find(size.modifiers, word) != size.modifiers.end()) {
+      if (std::ranges::find(size.modifiers, word) != size.modifiers.end())
         return fmt::format("{} mm is {}: it has no limits", format_mm(size.nominal), word);
-      }
     }
     if (!found.upper && !found.lower && found.class_name.empty()) {
       return fmt::format(

@@ -107,9 +107,8 @@ class Part21Scanner {
       const std::string_view section = lexer_.keyword();
       if (section == kEnd) return (lexer_.take(';') || lexer_.fail("; expected")) && signatures();
       const bool is_data = section == "DATA";
-      if (!is_data && section != "ANCHOR" && section != "REFERENCE") {
+      if (!is_data && section != "ANCHOR" && section != "REFERENCE")
         return lexer_.fail("DATA or END-ISO-10303-21 expected");
-      }
       if (is_data && lexer_.peek() == '(' && !lexer_.list(Part21::kDeepest)) return false;
       if (!lexer_.take(';')) return lexer_.fail("; expected");
       if (is_data ? !instances() : !statements()) return false;
@@ -150,8 +149,7 @@ class Part21Scanner {
     return lexer_.fail("ENDSEC expected");
   }
 
-  /// Reads the statements of a section that has no sizes: anchors and references to other files
-  /// (edition 3).
+  /// Reads the statements of a section that has no sizes: anchors and references (edition 3).
   bool statements() {
     for (;;) {
       const std::size_t begin = lexer_.at();
@@ -197,9 +195,8 @@ class Part21Scanner {
     if (!name.is(Parameter::Kind::Reference) || !lexer_.take('=')) {
       return lexer_.fail("an instance must be #number=NAME(…);");
     }
-    if (file_.instances_.size() == most_) {
+    if (file_.instances_.size() == most_)
       return lexer_.fail("more than {} instances: use fitgauge plan from for larger files", most_);
-    }
     const std::size_t at = lexer_.at();
     file_.instances_.push_back({name.id, static_cast<std::uint32_t>(at)});
     if (at - let_go_ > FileText::kStretch) file_.text_.let_go(std::exchange(let_go_, at), at);
@@ -207,9 +204,8 @@ class Part21Scanner {
     do {
       std::string_view entity;
       if (!record(entity) || ++records_ > 4 * most_) return lexer_.fail("too many records");
-      if (const auto place = places_.find(entity); place != places_.end()) {
+      if (const auto place = places_.find(entity); place != places_.end())
         file_.by_name_[place->second].push_back(name.id);
-      }
     } while (is_complex && !lexer_.take(')'));
     return lexer_.take(';') || lexer_.fail("; expected");
   }
@@ -258,9 +254,8 @@ void Part21::fail(std::uint32_t id, std::string message) const {
 
 bool Part21::walk(std::string_view text) const {
   walked_ += text.size();
-  if (walked_ > kMostWalked || Allowance::of_thread().is_spent()) {
+  if (walked_ > kMostWalked || Allowance::of_thread().is_spent())
     fail(0, "the sizes refer to too many entities: export fewer parts");
-  }
   return !error_;
 }
 

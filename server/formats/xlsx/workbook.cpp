@@ -103,9 +103,8 @@ Result<Workbook> Workbook::make(std::string_view sheet, std::span<const std::str
   lxw_workbook_options options{
       .constant_memory = LXW_TRUE, .tmpdir = state->folder.data(), .use_zip64 = LXW_FALSE};
   state->book = workbook_new_opt(state->file.path().c_str(), &options);
-  if (state->book != nullptr) {
+  if (state->book != nullptr)
     state->sheet = workbook_add_worksheet(state->book, std::string(sheet).c_str());
-  }
   if (state->sheet == nullptr) return cannot_write("it cannot be begun");
   state->mm = state->format("0.000000\" mm\"");
   state->um = state->format("0.000\" \u00B5m\"");
@@ -115,9 +114,8 @@ Result<Workbook> Workbook::make(std::string_view sheet, std::span<const std::str
   const auto last = static_cast<lxw_col_t>(header.size() - 1);
   worksheet_set_column(state->sheet, 0, last, kColumnWidth, nullptr);
   worksheet_freeze_panes(state->sheet, 1, 0);
-  for (const std::string& name : header) {
+  for (const std::string& name : header)
     state->took(worksheet_write_string(state->sheet, 0, state->column, name.c_str(), bold));
-  }
   Workbook workbook(std::move(state));
   workbook.end_row();
   return workbook;

@@ -33,8 +33,7 @@ class Origin {
     return static_cast<std::size_t>(next - starts_.begin()) - 1;
   }
 
-  /// Returns the place of the text in this line of the block, or of the whole block if the line
-  /// does not have it.
+  /// Returns the place of the text in this line of the block, else of the whole block.
   Slice<char> place(std::size_t first_line, std::size_t last_line, std::string_view text) const {
     if (lines_.empty()) return {};
     const Slice<char> first = lines_[std::min(first_line, lines_.size() - 1)];
@@ -153,9 +152,8 @@ bool is_iso(std::string_view text, std::string_view name) {
 }
 
 klartext::ParsedProgram parse_program(std::string bytes, std::string name) {
-  if (bytes.size() > klartext::kLargestSource || !is_iso(bytes, name)) {
+  if (bytes.size() > klartext::kLargestSource || !is_iso(bytes, name))
     return klartext::parse_program(std::move(bytes), std::move(name));
-  }
   return parse_iso(klartext::decode_source(std::move(bytes)), std::move(name));
 }
 

@@ -20,8 +20,7 @@ constexpr unsigned kLargestBlockNumber = 999'999'999;
 constexpr unsigned kLargestFunction = 99;
 constexpr unsigned kLargestCycle = 9999;
 
-/// Returns whether the first word has several letters: controls accept Klartext in DIN/ISO
-/// programs.
+/// Returns whether it is a word of Klartext, which controls accept in DIN/ISO programs too.
 bool is_klartext_word(std::string_view name) {
   static const std::vector<std::string_view> kWords = klartext::block_keywords();
   return name.size() > 1 &&
@@ -299,9 +298,8 @@ class Translator {
     const bool has_values =
         words.any([](const Word& word) { return word.name == "S" || word.name.starts_with('D'); });
     if (number == nullptr && !has_values) {
-      if (words.has_plane && called_axis_ != '\0' && called_axis_ != modes_.tool_axis) {
+      if (words.has_plane && called_axis_ != '\0' && called_axis_ != modes_.tool_axis)
         fail("the tool axis changes with the tool: write G17, G18 or G19 after T");
-      }
       return;
     }
     const bool moves = words.has_path || words.any([](const Word& word) { return word.is_axis(); });

@@ -52,9 +52,8 @@ Text BlockReader::quoted_text(std::size_t longest, std::string_view what) {
 Expr BlockReader::add_node(Operator op, std::span<const Expr> operands) {
   int height = 0;
   for (const Expr& operand : operands) {
-    if (const auto* index = std::get_if<NodeIndex>(&operand)) {
+    if (const auto* index = std::get_if<NodeIndex>(&operand))
       height = std::max<int>(height, parts_.nodes[index->value].height);
-    }
   }
   if (height >= kDeepestExpression)
     return fail(

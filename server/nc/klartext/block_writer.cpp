@@ -122,9 +122,8 @@ void BlockWriter::words(Slice<Word> words, std::string_view mark, LetterSet befo
 }
 
 BlockWriter::Level BlockWriter::level_of(const Expr& expr) const {
-  if (const auto* literal = std::get_if<double>(&expr)) {
+  if (const auto* literal = std::get_if<double>(&expr))
     return std::signbit(*literal) ? Level::Signed : Level::Alone;
-  }
   const auto* index = std::get_if<NodeIndex>(&expr);
   if (index == nullptr) return Level::Alone;
   switch (program_.node(*index).op) {

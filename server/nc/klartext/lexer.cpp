@@ -116,9 +116,8 @@ bool Lexer::accept(char c) {
 
 bool Lexer::accept_word(std::string_view word) {
   skip_blanks();
-  if (!matches(word) || (continues_word(word.back()) && continues_word(peek(word.size())))) {
+  if (!matches(word) || (continues_word(word.back()) && continues_word(peek(word.size()))))
     return false;
-  }
   at_ += word.size();
   return true;
 }
@@ -185,9 +184,8 @@ double Lexer::number() {
 std::uint32_t Lexer::digits(std::uint32_t largest, std::string_view what) {
   const char* begin = skip_blanks();
   std::uint64_t value = 0;
-  for (; is_digit(*at_); ++at_) {
+  for (; is_digit(*at_); ++at_)
     value = std::min<std::uint64_t>(value * 10 + static_cast<unsigned>(*at_ - '0'), UINT32_MAX);
-  }
   if (at_ == begin) {
     fail_expected(what);
   } else if (value > largest)
@@ -207,9 +205,8 @@ QRef Lexer::parameter() {
     space = letter == 'L' ? QSpace::Ql : letter == 'R' ? QSpace::Qr : QSpace::Qs;
   }
   std::uint32_t number = 0;
-  for (; is_digit(*at_); ++at_) {
+  for (; is_digit(*at_); ++at_)
     number = std::min(number * 10 + static_cast<unsigned>(*at_ - '0'), 100'000U);
-  }
   if (number >= parameter_count(space)) {
     const std::string_view name(begin, at_);
     fail(DiagnosticCode::ParameterOutOfRange, since(begin),

@@ -239,8 +239,7 @@ void Parser::end_program(std::size_t at) {
 
 ParsedProgram Parser::parse() && {
   const std::size_t size = parts_.source.size();
-  // Reserved memory that is unused is never touched. Only programs that are too large have more
-  // words.
+  // Unused reserved memory is never touched. Only programs that are too large have more words.
   constexpr std::size_t kShortWord = 3;
   const std::size_t lines = count_lines(parts_.source);
   parts_.blocks.reserve(std::min(lines, kMostBlocks));

@@ -12,8 +12,7 @@ namespace {
 
 constexpr std::uint32_t kLargestCycle = 9999;
 
-/// Reads the free text after the cycle's number: up to the first parameter, the comment or the line
-/// end.
+/// Reads the free text after the cycle's number: up to the first parameter, a comment or line end.
 Text parse_dialog(BlockReader& in) {
   const char* begin = in.at();
   const char* at = begin;
@@ -22,8 +21,7 @@ Text parse_dialog(BlockReader& in) {
   return in.add_text(without_wrap(std::string_view(begin, at)));
 }
 
-/// Adds the comment from `;` to the end of its physical line to `comment`; the lexer moves behind
-/// it.
+/// Adds the comment from `;` to the end of its physical line to `comment`, and passes it.
 void parse_line_comment(BlockReader& in, Text& comment) {
   const char* begin = in.at() + 1;
   const char* end = std::find(begin, in.end(), '\n');
@@ -250,9 +248,8 @@ Statement parse_cycle(BlockReader& in, CycleFamily family) {
   in.skip_blanks();
   Cycle cycle{.family = family};
   cycle.number = static_cast<std::uint16_t>(in.digits(kLargestCycle, "the number of the cycle"));
-  if (family != CycleFamily::GlobalDef && at_cycle_part(in)) {
+  if (family != CycleFamily::GlobalDef && at_cycle_part(in))
     return parse_cycle_part(in, family, cycle.number);
-  }
   cycle.dialog = parse_dialog(in);
   cycle.parameters = parse_parameters(in);
   return cycle;

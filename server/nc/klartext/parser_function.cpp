@@ -54,9 +54,8 @@ Statement parse_fn_0(BlockReader& in) {
     return SetUndefined{any};
   }
   in.expect('=');
-  if (!in.failure() && any.is_string()) {
+  if (!in.failure() && any.is_string())
     in.fail(DiagnosticCode::ParameterType, in.here(), "FN 0 assigns a number, not a text");
-  }
   return Assignment{.target = any, .form = AssignmentForm::Fn, .fn = 0, .value = parse_number(in)};
 }
 
@@ -151,9 +150,8 @@ Statement parse_declare(BlockReader& in) {
   if (!in.accept_word("STRING")) return refuse_word(in, "DECLARE");
   const char* begin = in.skip_blanks();
   const QRef target = in.parameter();
-  if (!in.failure() && !target.is_string()) {
+  if (!in.failure() && !target.is_string())
     in.fail(DiagnosticCode::ParameterType, in.since(begin), "DECLARE STRING needs a QS parameter");
-  }
   return parse_formula_of(in, target, AssignmentForm::DeclareString);
 }
 
@@ -245,9 +243,8 @@ Label parse_label(BlockReader& in) {
     return in.fail_expected("a label: a number, a name in double quotes or a parameter");
   const char* begin = in.at();
   const Text name = in.quoted_text(kLongestLabelName, "the name of the label");
-  if (name.empty()) {
+  if (name.empty())
     in.fail(DiagnosticCode::LabelMalformed, in.since(begin), "the name of the label is empty");
-  }
   return name;
 }
 

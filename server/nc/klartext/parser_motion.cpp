@@ -126,18 +126,16 @@ Statement parse_motion(BlockReader& in, Path path) {
   Motion motion{.path = path};
   const LetterSet allowed = words_of(path);
   WordReader words(in, allowed);
-  if (path == Path::Chf && !in.at_end()) {
+  if (path == Path::Chf && !in.at_end())
     in.add_word({.value = parse_number(in), .letter = Letter::Chamfer});
-  }
   const bool turns = path == Path::C || path == Path::Cp || path == Path::Cr || path == Path::Ct ||
                      path == Path::Ctp;
   const bool compensates = path != Path::Cc && path != Path::Rnd && path != Path::Chf;
   while (!in.at_end()) {
     const char c = ascii_upper(in.peek());
     if ((c == 'R' || c == 'F' || c == 'M') && parse_blank_word(in)) continue;
-    if (c == 'R' && compensates && parse_compensation(in, motion, allowed.contains(Letter::R))) {
+    if (c == 'R' && compensates && parse_compensation(in, motion, allowed.contains(Letter::R)))
       continue;
-    }
     if (c == 'D' && turns && parse_rotation(in, motion)) continue;
     words.read();
   }

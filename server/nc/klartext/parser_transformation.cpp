@@ -174,12 +174,10 @@ LetterSet words_of(PlaneKind kind) {
 Statement parse_trans(BlockReader& in) {
   if (in.accept_word("DATUM")) return parse_trans_datum(in);
   if (in.accept_word("MIRROR")) return parse_trans_words(in, Transformation::Mirror, kAxes, kAxes);
-  if (in.accept_word("ROTATION")) {
+  if (in.accept_word("ROTATION"))
     return parse_trans_words(in, Transformation::Rotation, LetterSet(Letter::Rot));
-  }
-  if (in.accept_word("SCALE")) {
+  if (in.accept_word("SCALE"))
     return parse_trans_words(in, Transformation::Scale, LetterSet(Letter::Scl));
-  }
   return in.fail_expected("DATUM, MIRROR, ROTATION or SCALE");
 }
 
