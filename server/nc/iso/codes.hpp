@@ -86,8 +86,7 @@ struct BlockWords {
   }
 };
 
-/// Reads the words from here to the end of the block and updates the modes. Fails through the
-/// lexer.
+/// Reads the words from here to the end of the block and updates the modes; `in` fails.
 BlockWords read_words(klartext::Lexer& in, Modes& modes);
 
 /// `P01 +5 P02 X-` from here to the end of the block.

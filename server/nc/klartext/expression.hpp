@@ -126,8 +126,7 @@ constexpr bool gives_text(Operator op) {
 /// The deepest tree the parser builds; a recursive walk is safe.
 inline constexpr std::uint16_t kDeepestExpression = 200;
 
-/// An inner node of an expression tree. Its operands were parsed before it: their indices are
-/// smaller.
+/// An inner node of an expression tree. Its operands have smaller indices: they were parsed before.
 struct Node {
   Operator op = Operator::Pi;
   std::uint16_t height = 1;  ///< of the tree below it, at most kDeepestExpression

@@ -31,8 +31,7 @@ struct ParsedProgram {
 /// @param name the file's name, for diagnostics.
 ParsedProgram parse_program(std::string bytes, std::string name);
 
-/// The first words of blocks, also of unavailable features; axes, `*` and parameters begin blocks
-/// as well.
+/// The first words of blocks, also of unavailable features; `*`, axes and parameters begin some.
 std::vector<std::string_view> block_keywords();
 
 }  // namespace fitgauge::klartext

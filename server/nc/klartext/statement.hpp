@@ -31,8 +31,7 @@ struct Structure {
   std::uint8_t level = 0;
 };
 
-/// `ERROR = raw text`: the control stores it for an unreadable line. The parser makes one for every
-/// block with an error.
+/// `ERROR = raw text`: the control stores it for an unreadable line, the parser for every fault.
 struct ErrorBlock {
   Text text{};
 };
@@ -211,8 +210,7 @@ struct SelectTable {
 /// Spelling of an assignment; all forms have one meaning.
 enum class AssignmentForm : std::uint8_t { Formula, Fn, DeclareString };
 
-/// `Q5 = ...`, FN 0 to 8, 13 and 18, `DECLARE STRING QS1 = ...`. A QS target has a string value,
-/// any other a number.
+/// `Q5 = ...`, FN 0 to 8, 13 and 18, `DECLARE STRING QS1 = ...`. A QS target gets a text.
 struct Assignment {
   QRef target{};
   AssignmentForm form = AssignmentForm::Formula;
@@ -254,8 +252,7 @@ struct SystemWrite {
   Expr value{};
 };
 
-/// FN 19, 29 (PLC), 37 (EXPORT), 38 (SEND: format, then values): without effect on a simulator but
-/// for the log.
+/// FN 19, 29 (PLC), 37 (EXPORT), 38 (SEND: format, then values): only logged here.
 struct ExternalFunction {
   std::uint8_t fn = 0;
   Slice<Expr> operands{};

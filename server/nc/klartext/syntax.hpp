@@ -33,8 +33,7 @@ struct ProgramParts {
   std::vector<Expr> operands{};
   std::string texts{};
 
-  /// Returns the maximum memory of the pools: a grown pool has twice its size, a reserved pool
-  /// exactly its size.
+  /// Returns the most memory of the pools: twice the size of a grown one, that of a reserved one.
   std::size_t memory_bytes() const;
 };
 
@@ -53,8 +52,7 @@ class Program {
   /// there, while this source exists.
   Program translated(std::string&& source, const std::function<Slice<char>(Slice<char>)>& place) &&;
 
-  /// Returns all blocks in order. Without errors, BEGIN PGM is first (after comments), and END PGM
-  /// last.
+  /// All blocks in order. Without errors BEGIN PGM is first (after comments), END PGM last.
   std::span<const Block> blocks() const { return parts_.blocks; }
 
   /// Unit of BEGIN PGM.

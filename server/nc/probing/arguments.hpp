@@ -5,8 +5,7 @@
 
 namespace fitgauge::probing {
 
-/// The value of a cycle parameter when the block runs: nothing, a number (mm, degrees, mm/min) or a
-/// text.
+/// The value of a cycle parameter in a run: nothing, a number (mm, degrees, mm/min) or a text.
 using ArgumentValue = std::variant<std::monostate, double, std::string>;
 
 /// Checks if a value is allowed in a parameter, in the linker when it is known, and in the run. The

@@ -41,8 +41,7 @@ void set_lengths(CycleHost& host, std::size_t first, std::initializer_list<doubl
 
 constexpr Length magnitude(Length length) { return length < Length{} ? -length : length; }
 
-/// An angle in degrees as Q parameters get it, to 1e-7 degrees (1 nm at 0.5 m), so that two equal
-/// angles are equal.
+/// An angle as Q parameters get it, to 1e-7 degrees (1 nm at 0.5 m), so that equal ones are equal.
 double to_angle(double degrees);
 
 /// The limits of a size from its two parameters; both 0 switch the check off.

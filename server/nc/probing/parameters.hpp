@@ -193,8 +193,7 @@ inline constexpr std::array kCircleResults =
 
 }  // namespace fitgauge::probing::parameter
 
-/// Errors that cycles share, for their descriptors. Errors of single values (1004, 1011) follow
-/// from the parameters.
+/// Errors that cycles share. Those of single values (1004, 1011) follow from the parameters.
 namespace fitgauge::probing::errors {
 
 /// Tool axis, tool, touch probe; 30 to 33 and 480 to 484 do not use these.
@@ -213,8 +212,7 @@ inline constexpr ErrorSet kCircle{1066, 1067, 1081};
 inline constexpr ErrorSet kJudged{1016, 1065};
 /// Errors of Q309 for a centre.
 inline constexpr ErrorSet kCentre{1044, 1045};
-/// Errors of the sphere, the retraction height, the axes, their ranges, and values that cannot be
-/// corrected.
+/// Errors of the sphere, the retraction, the axes, their ranges, and of what cannot be corrected.
 inline constexpr ErrorSet kKinematics{1072, 1082, 1100, 1101, 1102};
 /// Errors of a tilted plane, of the tool axis, and of impossible tool data.
 inline constexpr ErrorSet kToolMeasuring{1075, 1079, 1109};

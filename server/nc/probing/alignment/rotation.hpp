@@ -30,8 +30,7 @@ CycleResult<void> replace_active_preset(machine::Machine& machine,
 /// Resets the basic rotation: measuring and alignment cycles begin without one.
 CycleResult<void> reset_basic_rotation(machine::Machine& machine);
 
-/// Resets the basic rotation, with a note if there was one. @errors if the output budget of the run
-/// is spent.
+/// Resets the basic rotation, with a note if there was one. @errors the output budget is spent.
 CycleResult<void> begin_without_rotation(const CycleContext& context);
 
 /// Begins every alignment cycle: resets an active basic rotation.

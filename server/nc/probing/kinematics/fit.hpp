@@ -20,8 +20,7 @@ struct MeasuringTool {
   double length = 0;
 };
 
-/// Position of the sphere's centre on the table by a kinematic model: in machine coordinates with
-/// all axes at zero.
+/// The sphere's centre on the table by a model: in machine coordinates with all axes at zero.
 machine::Vec3 on_table(const SpherePose& pose, const machine::Kinematics& model,
                        const MeasuringTool& tool);
 

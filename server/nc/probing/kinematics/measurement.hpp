@@ -19,8 +19,7 @@ struct AxisPlan {
 };
 
 /// Returns `points` positions from `start` to `end` at equal steps. A Hirth axis stops at the
-/// nearest multiple of its grid; of two equally near ones, at the one farther from zero (decision
-/// 5).
+/// nearest multiple of its grid; of two as near, at the one farther from zero (decision 5).
 std::vector<double> measuring_positions(double start, double end, int points, double grid);
 
 /// Plans the rotary axes of the machine, in the order A, B, C; settings of other axes are ignored.

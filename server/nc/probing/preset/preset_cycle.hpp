@@ -8,8 +8,7 @@ namespace fitgauge::probing {
 /// Sets Q151 to Q153 and records the diameter against Q262, without limits and verdict.
 void publish_circle(const CycleContext& context, Side side, const ProbedCircle& probed);
 
-/// The result of a preset cycle: a point, and its new coordinates in some axes of the plane
-/// coordinates.
+/// The result of a preset cycle: a point, and its new coordinates in some axes of the plane.
 struct DatumPoint {
   Vec3 point{};  ///< in plane coordinates of the input system
   std::array<bool, 3> axes{};

@@ -7,8 +7,7 @@ namespace fitgauge::probing {
 
 enum class Side : std::uint8_t { Inside, Outside };
 
-/// Plan for touching a circle in the working plane; angles in degrees from the main axis, lengths
-/// in plane coordinates.
+/// Plan for touching a circle in the plane and its coordinates; degrees from the main axis.
 struct CirclePlan {
   Side side = Side::Inside;
   Point2 centre;
@@ -58,8 +57,7 @@ CycleResult<std::vector<Point2>> probe_hole_centres(const CycleContext& context,
                                                     ProbingMotion& motion,
                                                     std::span<const Point2> nominal);
 
-/// The circle through three holes around Q273 and Q274, of the parameters Q262, Q291, Q292, Q293,
-/// Q261, Q260.
+/// The circle through three holes around Q273 and Q274, by Q262, Q291 to Q293, Q261 and Q260.
 CycleResult<ProbedCircle> probe_bolt_circle(const CycleContext& context, ProbingMotion& motion);
 
 struct Rectangle {
