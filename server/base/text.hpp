@@ -52,6 +52,20 @@ bool ascii_iequals(std::string_view a, std::string_view b);
 /// Returns the text without leading and trailing blanks and tabs.
 std::string_view trim(std::string_view text);
 
+/// Removes the text up to the next separator and the separator. @returns the text before it.
+inline std::string_view take_field(std::string_view& rest, char separator) {
+  const std::string_view text = rest.substr(0, rest.find(separator));
+  rest.remove_prefix(std::min(text.size() + 1, rest.size()));
+  return text;
+}
+/// The texts between separators: one more than there are separators.
+inline std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts(
+      static_cast<std::size_t>(std::ranges::count(text, separator)) + 1);
+  for (std::string_view& part : parts) part = take_field(text, separator);
+  return parts;
+}
+
 /// Whether a name is of a pattern with `*` and `?`; letters count in either case.
 bool matches_glob(std::string_view pattern, std::string_view name);
 

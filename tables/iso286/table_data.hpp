@@ -2,8 +2,7 @@
 
 #include "base/result.hpp"
 #include "base/text.hpp"
-#include "tables/iso286/limit_deviations.hpp"
-#include "tables/iso286/nominal_size.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::iso286 {
 

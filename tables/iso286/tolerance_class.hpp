@@ -1,9 +1,64 @@
 #pragma once
 
+#include "base/length.hpp"
 #include "base/result.hpp"
-#include "tables/iso286/nominal_size.hpp"
 
 namespace fitgauge::iso286 {
+
+/// The feature (ISO 286-1, 3.1.1 and 3.1.2): an internal feature of size, or an external one.
+enum class Feature : std::uint8_t { Hole, Shaft };
+
+/// `hole` or `shaft`.
+constexpr std::string_view word(Feature feature) {
+  return feature == Feature::Hole ? "hole" : "shaft";
+}
+
+constexpr std::optional<Feature> feature_from_word(std::string_view text) {
+  if (text == "hole") return Feature::Hole;
+  if (text == "shaft") return Feature::Shaft;
+  return std::nullopt;
+}
+
+/// The largest nominal size ISO 286-1 has numbers for (its Table 1 ends there).
+inline constexpr Length kLargestNominalSize = Length::millimetres(3150);
+
+/// A nominal size D with 0 < D <= 3150 mm (ISO 286-1, 3.2.1).
+class NominalSize {
+ public:
+  /// @errors SizeOutOfRange.
+  static Result<NominalSize> make(Length size);
+
+  /// Reads a size in mm; the whole text is the number.
+  /// @errors LengthMalformed, LengthTooFine, SizeOutOfRange.
+  static Result<NominalSize> parse_mm(std::string_view text, LengthSyntax syntax = {});
+
+  constexpr Length length() const { return size_; }
+
+  friend constexpr auto operator<=>(NominalSize, NominalSize) = default;
+
+ private:
+  explicit constexpr NominalSize(Length size) : size_(size) {}
+
+  Length size_;
+};
+
+/// A step of the tables: over < D <= up_to.
+struct NominalSizeRange {
+  Length over;
+  Length up_to;
+
+  constexpr bool contains(NominalSize size) const {
+    return over < size.length() && size.length() <= up_to;
+  }
+  constexpr bool contains(const NominalSizeRange& other) const {
+    return over <= other.over && other.up_to <= up_to;
+  }
+
+  friend constexpr auto operator<=>(const NominalSizeRange&, const NominalSizeRange&) = default;
+};
+
+/// `over 18 up to and including 30 mm`, as the standard words it.
+std::string format_range(const NominalSizeRange& range);
 
 /// The standard tolerance grades IT01 to IT18, finest first (ISO 286-1, 3.2.8.2).
 enum class StandardToleranceGrade : std::uint8_t {  // clang-format off
@@ -101,5 +156,62 @@ Result<FitDesignation> parse_fit_designation(std::string_view text);
 
 /// Reads the two parts apart: `25H7` and `g6`. Errors as above.
 Result<FitDesignation> parse_fit_designation(std::string_view hole, std::string_view shaft_class);
+
+/// The limit deviations from the nominal size: ES and EI of a hole, es and ei of a shaft
+/// (ISO 286-1, 3.2.6).
+struct LimitDeviations {
+  Length upper;
+  Length lower;
+
+  friend constexpr auto operator<=>(const LimitDeviations&, const LimitDeviations&) = default;
+};
+
+class ToleranceTables;
+
+/// Returns the deviations of a class for every size of one range of the tables. For a standard
+/// class they are the deviations at its end. For a custom one, the deviations that its rows share
+/// there, if they cover the range.
+std::optional<LimitDeviations> deviations_in_range(const ToleranceTables& tables, ClassId id,
+                                                   const NominalSizeRange& range);
+
+/// Source of limits: the standard, or a custom tolerance class.
+enum class Basis : std::uint8_t { Iso286, Custom };
+
+/// `iso286` or `custom`.
+constexpr std::string_view word(Basis basis) {
+  return basis == Basis::Iso286 ? "iso286" : "custom";
+}
+
+/// The limits of size of one nominal size and class (ISO 286-1, 3.2.3), exact in nanometres.
+struct LimitsOfSize {
+  NominalSize nominal_size;
+  ClassId class_id;
+  Feature feature;
+  Basis basis;
+  LimitDeviations deviations;
+  NominalSizeRange size_range;  ///< the step of the standard tolerance, or the custom column's row
+
+  constexpr Length upper_limit() const { return nominal_size.length() + deviations.upper; }
+  constexpr Length lower_limit() const { return nominal_size.length() + deviations.lower; }
+  constexpr Length tolerance() const { return deviations.upper - deviations.lower; }
+};
+
+/// ISO 286-1, 3.3.
+enum class FitKind : std::uint8_t { Clearance, Transition, Interference };
+
+/// `clearance`, `transition` or `interference`.
+std::string_view word(FitKind kind);
+
+/// A hole and a shaft of one nominal size. Interference is negative clearance.
+struct Fit {
+  LimitsOfSize hole;
+  LimitsOfSize shaft;
+
+  Length max_clearance() const { return hole.deviations.upper - shaft.deviations.lower; }
+  Length min_clearance() const { return hole.deviations.lower - shaft.deviations.upper; }
+
+  /// EI - es = 0 is a clearance fit (3.3.4), ES - ei = 0 an interference fit (3.3.5).
+  FitKind kind() const;
+};
 
 }  // namespace fitgauge::iso286

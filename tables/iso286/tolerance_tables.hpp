@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/result.hpp"
-#include "tables/iso286/limit_deviations.hpp"
 #include "tables/iso286/table_data.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::iso286 {
 

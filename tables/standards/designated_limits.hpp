@@ -2,8 +2,7 @@
 
 #include "base/length.hpp"
 #include "base/result.hpp"
-#include "tables/iso286/limit_deviations.hpp"
-#include "tables/iso286/nominal_size.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 #include "tables/standards/standard.hpp"
 
 namespace fitgauge::standards {

@@ -2,6 +2,7 @@
 
 #include "base/digest.hpp"
 #include "base/number.hpp"
+#include "base/text.hpp"
 #include "tables/compiled_in.hpp"
 
 namespace fitgauge::standards {
@@ -152,9 +153,9 @@ std::optional<Length> Row::length(std::string_view item, Member member) const {
 
 Result<Table> read_table(std::string_view name, std::string_view csv) {
   Table table{.name = name};
-  const std::vector<std::string_view> columns = cells_of(take_field(csv, '\n'));
+  const std::vector<std::string_view> columns = split(take_field(csv, '\n'), ',');
   for (std::size_t line = 2; !csv.empty(); ++line) {
-    const std::vector<std::string_view> cells = cells_of(take_field(csv, '\n'));
+    const std::vector<std::string_view> cells = split(take_field(csv, '\n'), ',');
     if (cells.size() != columns.size()) return broken(name, line, "has another number of cells");
     Row row;
     for (std::size_t i = 0; i < cells.size(); ++i) {

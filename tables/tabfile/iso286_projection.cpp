@@ -1,6 +1,6 @@
 #include "tables/tabfile/iso286_projection.hpp"
 
-#include "tables/iso286/limit_deviations.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 #include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::tabfile {

@@ -20,11 +20,9 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   const auto ends = static_cast<std::size_t>(std::ranges::count(text, '\n'));
   lines.reserve(std::min(ends, kMostLines) + 1);
   while (!text.empty() && lines.size() <= kMostLines) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
+    std::string_view line = take_field(text, '\n');
     if (line.ends_with('\r')) line.remove_suffix(1);
     lines.push_back(line);
-    text.remove_prefix(std::min(end + 1, text.size()));
   }
   return lines;
 }
@@ -41,9 +39,8 @@ bool ends_a_word(char c) {
 /// The next word of `text`, which is shortened by it.
 std::string_view take_word(std::string_view& text) {
   text = trim(text);
-  const std::size_t end = std::min(text.find(' '), text.size());
-  const std::string_view word = text.substr(0, end);
-  text = trim(text.substr(end));
+  const std::string_view word = take_field(text, ' ');
+  text = trim(text);
   return word;
 }
 
@@ -216,8 +213,8 @@ class Reader {
       // Its line ends with "(", every inner parenthesis closes on its line or deeper.
       int depth = 0;
       const auto end = take_until([&](std::string_view l) {
-        depth += static_cast<int>(std::count(l.begin(), l.end(), '('));
-        depth -= static_cast<int>(std::count(l.begin(), l.end(), ')'));
+        depth += static_cast<int>(std::ranges::count(l, '('));
+        depth -= static_cast<int>(std::ranges::count(l, ')'));
         return depth == 0;
       });
       if (!end) return malformed(first, "TableDescription is not closed");

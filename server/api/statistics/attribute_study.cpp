@@ -1,4 +1,4 @@
-#include "metrology/statistics/attribute_study.hpp"
+#include "metrology/statistics/gauge_study.hpp"
 
 #include "api/statistics/study_rows.hpp"
 #include "api/wire/formulas.hpp"

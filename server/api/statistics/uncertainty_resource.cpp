@@ -1,6 +1,6 @@
 #include "api/statistics/statistics_answers.hpp"
 
-#include "metrology/statistics/model.hpp"
+#include "metrology/statistics/uncertainty.hpp"
 #include "service/measurements/uncertainty_budget.hpp"
 
 namespace fitgauge::api {

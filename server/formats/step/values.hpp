@@ -2,7 +2,7 @@
 
 #include "base/length.hpp"
 #include "formats/step/part21.hpp"
-#include "tables/iso286/nominal_size.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 // The records of an instance by their names, and its values with their units.
 

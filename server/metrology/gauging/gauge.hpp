@@ -4,7 +4,7 @@
 #include "base/result.hpp"
 #include "base/text.hpp"
 #include "metrology/gauging/conformance.hpp"
-#include "tables/iso286/nominal_size.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::gauging {
 

@@ -1,5 +1,8 @@
 #include "metrology/statistics/limit_gauge.hpp"
 
+#include "tables/compiled_in.hpp"
+#include "tables/iso286/derivation.hpp"
+
 namespace fitgauge::metrology {
 namespace {
 
@@ -7,54 +10,20 @@ using iso286::Feature;
 using iso286::LimitDeviations;
 using iso286::StandardToleranceGrade;
 
-constexpr std::int64_t kTenth = 100;  // nanometres
+constexpr int kIt1 = static_cast<int>(StandardToleranceGrade::IT1);
 
-int number_of(StandardToleranceGrade grade) {
-  return static_cast<int>(grade) - static_cast<int>(StandardToleranceGrade::IT1) + 1;
-}
-
-std::size_t step_of(iso286::NominalSize size) {
-  std::size_t step = 0;
-  while (size.length() > Length::millimetres(kGaugeSteps[step])) ++step;
-  return step;
-}
-
-/// The grade a gauge for this grade is made to: H of a plug, H1 of a ring or snap gauge.
-int grade_of_gauge(Feature feature, int grade) {
-  if (grade >= 13) return 7;
-  if (grade >= 11) return 5;
-  if (feature == Feature::Hole) return grade >= 7 ? 3 : 2;
-  return grade >= 8 ? 4 : grade >= 6 ? 3 : 2;
-}
-
-/// The values of one grade and step.
-struct Values {
-  Length inset;
-  Length wear;
-  Length safety;
-  Length tolerance;
-};
-
-Length tenths(std::int16_t value) { return Length::nanometres(value * kTenth); }
-
-Values values_of(Feature feature, int grade, std::size_t step) {
-  const int made_to = grade_of_gauge(feature, grade);
-  Values values;
-  values.tolerance =
-      tenths(made_to == 7 ? kTolerance7[step]
-                          : kFineTolerances[static_cast<std::size_t>(made_to - 1)][step]);
-  if (grade == 5) {
-    values.inset = tenths(kShaft5.inset[step]);
-    values.wear = tenths(kShaft5.wear[step]);
-    values.safety = tenths(kShaft5.safety[step]);
-    return values;
-  }
-  const auto row = static_cast<std::size_t>(grade - 6);
-  const bool shaft_6 = feature == Feature::Shaft && grade == 6;
-  values.inset = tenths(kInset[shaft_6 ? row + 1 : row][step]);
-  if (row < kWear.size()) values.wear = tenths(shaft_6 ? kShaftWear6[step] : kWear[row][step]);
-  values.safety = tenths(kSafety[row][step]);
-  return values;
+/// The tolerance of a gauge for a part of this grade: H of a plug, H1 of a ring or snap gauge.
+Length tolerance_of_gauge(Feature feature, int grade, const iso286::NominalSizeRange& step) {
+  static const iso286::StandardTables standard(iso286::compiled_in_tables().cells);
+  const bool is_hole = feature == Feature::Hole;
+  const int made_to = grade >= 13   ? 7
+                      : grade >= 11 ? 5
+                      : is_hole     ? (grade >= 7 ? 3 : 2)
+                                    : (grade >= 8   ? 4
+                                       : grade >= 6 ? 3
+                                                    : 2);
+  const auto as_grade = static_cast<StandardToleranceGrade>(made_to - 1 + kIt1);
+  return standard_tolerance(standard, as_grade, step).value();
 }
 
 LimitDeviations about(Length centre, Length tolerance) {
@@ -68,8 +37,17 @@ Error without_value(std::string message) {
 
 }  // namespace
 
+const standards::Table& limit_gauge_table() {
+  static const standards::Table table =
+      standards::read_table("gauges", compiled_in_csv("iso1938_gauges")).value();
+  return table;
+}
+
 Result<LimitGauge> limit_gauge(const iso286::LimitsOfSize& limits, std::string_view class_name) {
-  if (limits.nominal_size.length() > Length::millimetres(kGaugeSteps.back())) {
+  const auto& steps = limit_gauge_table().rows;
+  const auto row = std::ranges::find_if(
+      steps, [&](const standards::Row& step) { return step.holds(limits.nominal_size.length()); });
+  if (row == steps.end()) {
     return Error{ErrorCode::SizeOutOfRange,
                  "the nominal size of a limit gauge must be at most 500 mm"};
   }
@@ -79,26 +57,33 @@ Result<LimitGauge> limit_gauge(const iso286::LimitsOfSize& limits, std::string_v
         fmt::format("{} is a custom tolerance class: limit gauges need a standard tolerance grade",
                     class_name));
   }
-  const int grade = number_of(standard->grade);
-  const int finest = limits.feature == Feature::Hole ? 6 : 5;
+  const int grade = static_cast<int>(standard->grade) - kIt1 + 1;
+  const bool is_hole = limits.feature == Feature::Hole;
+  const int finest = is_hole ? 6 : 5;
   if (grade < finest || grade > 16) {
     return without_value(fmt::format("{} has no gauge for {}: a {} must have IT{} to IT16",
                                      kLimitGaugeScheme, class_name, word(limits.feature), finest));
   }
-  const std::size_t step = step_of(limits.nominal_size);
-  if (grade == 5 && kShaft5.inset[step] == kNoGaugeValue) {
+  const auto value = [&](std::string_view name, int of) {
+    return row->length(fmt::format("{}_{}", name, of), standards::Member::Deviation);
+  };
+  const bool is_shaft_6 = !is_hole && grade == 6;
+  const auto inset = value("inset", is_shaft_6 ? 7 : grade);
+  if (!inset) {
     return without_value(
         "the sources disagree about gauges for shafts of IT5 over 250 up to 315 mm");
   }
-  const Values v = values_of(limits.feature, grade, step);
-  if (limits.feature == Feature::Hole) {
-    return LimitGauge{.go = about(limits.lower_limit() + v.inset, v.tolerance),
-                      .go_wear_limit = limits.lower_limit() - v.wear + v.safety,
-                      .no_go = about(limits.upper_limit() - v.safety, v.tolerance)};
+  const Length wear = value(is_shaft_6 ? "shaft_wear" : "wear", grade).value_or(Length());
+  const Length safety = value("safety", grade).value_or(Length());
+  const Length tolerance = tolerance_of_gauge(limits.feature, grade, {*row->over, *row->up_to});
+  if (is_hole) {
+    return LimitGauge{.go = about(limits.lower_limit() + *inset, tolerance),
+                      .go_wear_limit = limits.lower_limit() - wear + safety,
+                      .no_go = about(limits.upper_limit() - safety, tolerance)};
   }
-  return LimitGauge{.go = about(limits.upper_limit() - v.inset, v.tolerance),
-                    .go_wear_limit = limits.upper_limit() + v.wear - v.safety,
-                    .no_go = about(limits.lower_limit() + v.safety, v.tolerance)};
+  return LimitGauge{.go = about(limits.upper_limit() - *inset, tolerance),
+                    .go_wear_limit = limits.upper_limit() + wear - safety,
+                    .no_go = about(limits.lower_limit() + safety, tolerance)};
 }
 
 }  // namespace fitgauge::metrology

@@ -1,4 +1,4 @@
-#include "metrology/statistics/model.hpp"
+#include "metrology/statistics/uncertainty.hpp"
 
 #include <muParser.h>
 
@@ -219,7 +219,7 @@ Result<Model> read_model(const std::string& text, const std::vector<std::string>
                    error.GetPos() < 0 ? text.size() : static_cast<std::size_t>(error.GetPos()));
   }
   return Model([model](const std::vector<double>& arguments) {
-    std::copy(arguments.begin(), arguments.end(), model->arguments.begin());
+    std::ranges::copy(arguments, model->arguments.begin());
     return model->parser.Eval();
   });
 }

@@ -46,7 +46,7 @@ std::vector<std::size_t> groups_of(const Budget& budget) {
   std::iota(groups.begin(), groups.end(), std::size_t{0});
   for (const Correlation& c : budget.correlations) {
     if (c.coefficient == 0) continue;
-    std::replace(groups.begin(), groups.end(), std::size_t{groups[c.b]}, std::size_t{groups[c.a]});
+    std::ranges::replace(groups, std::size_t{groups[c.b]}, std::size_t{groups[c.a]});
   }
   return groups;
 }

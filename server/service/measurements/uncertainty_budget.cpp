@@ -1,6 +1,6 @@
 #include "service/measurements/uncertainty_budget.hpp"
 
-#include "metrology/statistics/model.hpp"
+#include "metrology/statistics/uncertainty.hpp"
 
 namespace fitgauge::api {
 

@@ -2,7 +2,7 @@
 #include "metrology/statistics/capability.hpp"
 #include "metrology/statistics/gauge_study.hpp"
 #include "metrology/statistics/measuring_process.hpp"
-#include "metrology/statistics/model.hpp"
+#include "metrology/statistics/uncertainty.hpp"
 #include "metrology/statistics/zone_rules.hpp"
 #include "service/qualification/qualification.hpp"
 

@@ -59,27 +59,24 @@ TEST_CASE("where there is no gauge, the error says why") {
 }
 
 TEST_CASE("the tables of gauges hold what they must") {
-  for (std::size_t step = 0; step < kGaugeSteps.size(); ++step) {
-    CAPTURE(step);
-    const auto nominal = iso286::NominalSize::make(Length::millimetres(kGaugeSteps[step])).value();
-    // The tolerances that gauges are made to are those of ISO 286-1.
-    for (int grade = 1; grade <= 7; ++grade) {
-      if (grade == 6) continue;
-      CAPTURE(grade);
-      const auto limits = tables().limits_of_size(nominal, "h" + std::to_string(grade)).value();
-      const std::int16_t value = grade == 7
-                                     ? kTolerance7[step]
-                                     : kFineTolerances[static_cast<std::size_t>(grade) - 1][step];
-      CHECK(limits.tolerance() == Length::nanometres(value * 100));
-    }
+  const auto& steps = limit_gauge_table().rows;
+  REQUIRE(steps.size() == 13);
+  const auto value = [](const standards::Row& row, const char* name, int grade) {
+    return row.length(fmt::format("{}_{}", name, grade), standards::Member::Deviation).value();
+  };
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    CAPTURE(i);
+    const auto& step = steps[i];
+    const auto nominal = iso286::NominalSize::make(step.up_to.value()).value();
     // A coarser grade and a larger size never have less; the new GO gauge lies inside its limit.
-    for (std::size_t row = 0; row < kInset.size(); ++row) {
-      CAPTURE(row);
-      if (row > 0) CHECK(kInset[row][step] >= kInset[row - 1][step]);
-      if (row > 0) CHECK(kSafety[row][step] >= kSafety[row - 1][step]);
-      if (step > 0) CHECK(kInset[row][step] >= kInset[row][step - 1]);
-      if (step > 0) CHECK(kSafety[row][step] >= kSafety[row][step - 1]);
-      const std::string name = "H" + std::to_string(row + 6);
+    for (int grade = 6; grade <= 16; ++grade) {
+      CAPTURE(grade);
+      for (const char* name : {"inset", "safety"}) {
+        const Length here = value(step, name, grade);
+        if (grade > 6) CHECK(here >= value(step, name, grade - 1));
+        if (i > 0) CHECK(here >= value(steps[i - 1], name, grade));
+      }
+      const std::string name = "H" + std::to_string(grade);
       const auto limits = tables().limits_of_size(nominal, name);
       if (!limits) continue;
       const LimitGauge made = limit_gauge(*limits, name).value();

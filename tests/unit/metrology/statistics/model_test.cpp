@@ -1,4 +1,4 @@
-#include "metrology/statistics/model.hpp"
+#include "metrology/statistics/uncertainty.hpp"
 
 #include <doctest/doctest.h>
 
