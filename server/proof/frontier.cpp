@@ -1,6 +1,7 @@
 #include "proof/frontier.hpp"
 
 #include "base/number.hpp"
+#include "base/text.hpp"
 
 namespace fitgauge::tlog {
 namespace {
@@ -26,7 +27,7 @@ constexpr std::size_t kMostGroups = 5;
 constexpr unsigned kMostLevel = 7;
 
 bool is_digits(std::string_view text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
 /// A decimal number without leading zeros, up to `most`.
@@ -34,16 +35,6 @@ std::optional<unsigned> number(std::string_view text, unsigned most) {
   if (text.empty() || !is_digits(text) || (text.size() > 1 && text.front() == '0')) return {};
   const auto value = read_number<unsigned>(text);
   return value && *value <= most ? value : std::nullopt;
-}
-
-std::vector<std::string_view> split(std::string_view path) {
-  std::vector<std::string_view> parts;
-  for (std::size_t at = 0; at <= path.size();) {
-    const std::size_t slash = std::min(path.find('/', at), path.size());
-    parts.push_back(path.substr(at, slash - at));
-    at = slash + 1;
-  }
-  return parts;
 }
 
 /// `x001/x234/067`: groups of three digits, all but the last marked.
@@ -131,12 +122,12 @@ std::vector<Hash> inclusion_proof(std::uint64_t index, std::uint64_t size, const
       begin = middle;
     }
   }
-  std::reverse(path.begin(), path.end());
+  std::ranges::reverse(path);
   return path;
 }
 
 std::optional<Tile> parse_tile(std::string_view path) {
-  std::vector<std::string_view> parts = split(path);
+  std::vector<std::string_view> parts = split(path, '/');
   Tile tile;
   if (parts.front() == "entries") {
     tile.kind = Tile::Kind::Entries;

@@ -14,8 +14,8 @@ Error bad_note(std::string_view what) {
 }
 
 bool has_control_character(std::string_view text) {
-  return std::any_of(text.begin(), text.end(),
-                     [](char c) { return (static_cast<unsigned char>(c) < ' ' && c != '\n'); });
+  return std::ranges::any_of(
+      text, [](char c) { return (static_cast<unsigned char>(c) < ' ' && c != '\n'); });
 }
 
 struct SignatureLine {
@@ -41,20 +41,12 @@ Result<SignatureLine> read_signature(std::string_view line) {
 bool is_signed(std::string_view text, const SignatureLine& line, const VerifierKey& key) {
   VerifierKey::Signature signature{};
   if (line.signature.size() != signature.size()) return false;
-  std::copy(line.signature.begin(), line.signature.end(), signature.begin());
+  std::ranges::copy(line.signature, signature.begin());
   return key.verifies(text, signature);
 }
 
 Error bad_checkpoint(std::string_view what) {
   return {ErrorCode::NoteMalformed, fmt::format("not a checkpoint: {}", what)};
-}
-
-/// Removes the next line of `text`. @returns it without its newline.
-std::string_view take_line(std::string_view& text) {
-  const std::size_t end = std::min(text.find('\n'), text.size());
-  const std::string_view line = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  return line;
 }
 
 }  // namespace
@@ -88,10 +80,10 @@ Result<Note> open_note(std::string_view note, std::span<const VerifierKey> keys)
     const std::size_t end = rest.find('\n');
     const auto line = TRY(read_signature(rest.substr(0, end)));
     rest.remove_prefix(end + 1);
-    const auto key = std::find_if(keys.begin(), keys.end(), [&](const VerifierKey& known) {
+    const auto key = std::ranges::find_if(keys, [&](const VerifierKey& known) {
       return known.name() == line.name && known.id() == line.id;
     });
-    if (key == keys.end() || std::count(read.signers.begin(), read.signers.end(), &*key) != 0) {
+    if (key == keys.end() || std::ranges::count(read.signers, &*key) != 0) {
       continue;
     }
     if (!is_signed(read.text, line, *key)) {
@@ -110,14 +102,14 @@ std::string Checkpoint::text() const {
 
 Result<Checkpoint> parse_checkpoint(std::string_view text) {
   if (!text.ends_with('\n')) return bad_checkpoint("its last line is cut");
-  Checkpoint read{.origin = std::string(take_line(text))};
+  Checkpoint read{.origin = std::string(take_field(text, '\n'))};
   if (read.origin.empty()) return bad_checkpoint("its first line names no log");
-  const std::string_view size = take_line(text);
+  const std::string_view size = take_field(text, '\n');
   const auto parsed = std::from_chars(size.data(), size.data() + size.size(), read.size);
   if (parsed.ec != std::errc{} || size != std::to_string(read.size)) {
     return bad_checkpoint("its second line is not the size of the tree");
   }
-  const auto root = from_base64(take_line(text));
+  const auto root = from_base64(take_field(text, '\n'));
   if (!root || root->size() != read.root.size()) {
     return bad_checkpoint("its third line is not the root of the tree");
   }
@@ -129,9 +121,8 @@ Result<Checkpoint> open_checkpoint(std::string_view note, std::span<const Verifi
   auto opened = TRY(open_note(note, keys));
   auto checkpoint = parse_checkpoint(opened.text);
   if (!checkpoint) return checkpoint;
-  const bool own =
-      std::any_of(opened.signers.begin(), opened.signers.end(),
-                  [&](const VerifierKey* key) { return key->name() == checkpoint->origin; });
+  const bool own = std::ranges::any_of(
+      opened.signers, [&](const VerifierKey* key) { return key->name() == checkpoint->origin; });
   if (!own) {
     return Error{ErrorCode::NoteUnverified,
                  fmt::format("no key of {} signed the checkpoint", checkpoint->origin)};

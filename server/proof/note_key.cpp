@@ -88,7 +88,7 @@ Error bad_key(std::string_view what) {
 
 bool is_key_name(std::string_view name) {
   return !name.empty() && name.size() <= kLongestName && is_utf8(name) &&
-         std::none_of(name.begin(), name.end(), [](char c) {
+         std::ranges::none_of(name, [](char c) {
            return static_cast<unsigned char>(c) <= ' ' || c == '+' || c == '\x7f';
          });
 }

@@ -97,36 +97,23 @@ inline constexpr Accepted kTruth{.most = 1, .is_truth = true};
 inline constexpr Accepted kNotGiven{};
 inline constexpr Accepted kTruthNotGiven{.is_truth = true};
 
-/// Describes a field of MeasurementFields for reading, writing, storing and documents.
-struct MeasurementField {
+/// A member of MeasurementFields: a text, or a number in units of 10^-scale.
+struct FieldMember {
   using Text = std::optional<std::string_view> MeasurementFields::*;
   using Number = std::optional<std::int64_t> MeasurementFields::*;
 
-  constexpr MeasurementField(std::string_view name_, Text text_, std::string_view column_,
-                             int place_, Accepted accepted_, std::string_view meaning_ = {},
-                             int filter_ = 0)
-      : name(name_),
-        text(text_),
-        column(column_),
-        place(place_),
-        accepted(accepted_),
-        meaning(meaning_),
-        filter(filter_) {}
-  constexpr MeasurementField(std::string_view name_, Number number_, int scale_,
-                             std::string_view column_, int place_, Accepted accepted_,
-                             std::string_view meaning_ = {})
-      : name(name_),
-        number(number_),
-        scale(scale_),
-        column(column_),
-        place(place_),
-        accepted(accepted_),
-        meaning(meaning_) {}
+  constexpr FieldMember(Text of) : text(of) {}        // NOLINT(google-explicit-constructor)
+  constexpr FieldMember(Number of, int scale_of = 0)  // NOLINT(google-explicit-constructor)
+      : number(of), scale(scale_of) {}
 
-  std::string_view name;  ///< in requests, records and tables
-  Text text = nullptr;    ///< either the text
+  Text text = nullptr;  ///< either the text
   Number number = nullptr;
-  int scale = 0;            ///< of a number, which is in units of 10^-scale
+  int scale = 0;
+};
+
+/// Describes a field of MeasurementFields for reading, writing, storing and documents.
+struct MeasurementField : FieldMember {
+  std::string_view name;    ///< in requests, records and tables
   std::string_view column;  ///< in the store
   int place = 0;            ///< of the column in CSV and XLSX, from 1 on; never changed
   Accepted accepted{};
@@ -140,79 +127,80 @@ constexpr std::size_t filter_place(int number) {
 }
 
 using Of = MeasurementFields;
+constexpr FieldMember scaled(FieldMember::Number member, int scale) { return {member, scale}; }
 
 /// Every field once, in this order: labels, fields for the correction to 20 °C, other fields of a
 /// request, and fields that the service fills.
 inline constexpr MeasurementField kMeasurementFields[] = {
-    {"part_id", &Of::part_id, "part_id", 22, kIdentifier, "Part id, such as a serial number", 1},
-    {"characteristic", &Of::characteristic, "characteristic", 23, kIdentifier,
+    {&Of::part_id, "part_id", "part_id", 22, kIdentifier, "Part id, such as a serial number", 1},
+    {&Of::characteristic, "characteristic", "characteristic", 23, kIdentifier,
      "Measured characteristic of the part", 3},
-    {"order", &Of::order, "work_order", 24, kIdentifier, "Work order", 2},
-    {"operation", &Of::operation, "operation", 25, kIdentifier, "Step of the routing", 5},
-    {"machine", &Of::machine, "machine", 26, kIdentifier, "Machine that made the part", 4},
-    {"operator", &Of::operator_id, "operator", 27, kIdentifier, "Operator", 6},
-    {"gauge", &Of::gauge, "gauge", 28, kIdentifier, "Gauge of the measurement", 7},
-    {"unit", &Of::unit, "unit", 29, kIdentifier, "Line, cell or plant", 8},
-    {"comment", &Of::comment, "comment", 30, kRemark, "Free text"},
-    {"subgroup", &Of::subgroup, "subgroup", 31, kIdentifier,
+    {&Of::order, "order", "work_order", 24, kIdentifier, "Work order", 2},
+    {&Of::operation, "operation", "operation", 25, kIdentifier, "Step of the routing", 5},
+    {&Of::machine, "machine", "machine", 26, kIdentifier, "Machine that made the part", 4},
+    {&Of::operator_id, "operator", "operator", 27, kIdentifier, "Operator", 6},
+    {&Of::gauge, "gauge", "gauge", 28, kIdentifier, "Gauge of the measurement", 7},
+    {&Of::unit, "unit", "unit", 29, kIdentifier, "Line, cell or plant", 8},
+    {&Of::comment, "comment", "comment", 30, kRemark, "Free text"},
+    {&Of::subgroup, "subgroup", "subgroup", 31, kIdentifier,
      "Subgroup of parts that were made together", 11},
-    {"tool", &Of::tool, "tool", 65, kIdentifier, "Tool in the spindle that cut the part", 16},
+    {&Of::tool, "tool", "tool", 65, kIdentifier, "Tool in the spindle that cut the part", 16},
 
-    {"temperature_c", &Of::temperature, 6, "temperature", 21, kCelsius,
+    {scaled(&Of::temperature, 6), "temperature_c", "temperature", 21, kCelsius,
      "Temperature of the part, -273.15 to 10000; needs its expansion or material"},
-    {"scale_temperature_c", &Of::scale_temperature, 6, "scale_temperature", 41, kCelsius,
+    {scaled(&Of::scale_temperature, 6), "scale_temperature_c", "scale_temperature", 41, kCelsius,
      "Temperature of the scale (default: 20)"},
-    {"part_expansion_um_per_m_k", &Of::part_expansion, 6, "part_expansion", 42, kExpansion,
+    {scaled(&Of::part_expansion, 6), "part_expansion_um_per_m_k", "part_expansion", 42, kExpansion,
      "Expansion of the part in µm/(m K), 0 to 1000"},
-    {"scale_expansion_um_per_m_k", &Of::scale_expansion, 6, "scale_expansion", 43, kExpansion,
-     "Expansion of the scale in µm/(m K)"},
-    {"part_material", &Of::part_material, "part_material", 44, kMaterialName,
+    {scaled(&Of::scale_expansion, 6), "scale_expansion_um_per_m_k", "scale_expansion", 43,
+     kExpansion, "Expansion of the scale in µm/(m K)"},
+    {&Of::part_material, "part_material", "part_material", 44, kMaterialName,
      "Material of the part, such as steel, instead of part_expansion_um_per_m_k"},
-    {"scale_material", &Of::scale_material, "scale_material", 45, kMaterialName,
+    {&Of::scale_material, "scale_material", "scale_material", 45, kMaterialName,
      "Material of the scale, instead of scale_expansion_um_per_m_k"},
-    {"temperature_uncertainty_c", &Of::temperature_uncertainty, 6, "temperature_uncertainty", 49,
-     kThermalUncertainty,
+    {scaled(&Of::temperature_uncertainty, 6), "temperature_uncertainty_c",
+     "temperature_uncertainty", 49, kThermalUncertainty,
      "Standard uncertainty of temperature_c, 0 or more; adds to uncertainty_um"},
-    {"scale_temperature_uncertainty_c", &Of::scale_temperature_uncertainty, 6,
+    {scaled(&Of::scale_temperature_uncertainty, 6), "scale_temperature_uncertainty_c",
      "scale_temperature_uncertainty", 50, kThermalUncertainty,
      "Standard uncertainty of scale_temperature_c"},
-    {"part_expansion_uncertainty_um_per_m_k", &Of::part_expansion_uncertainty, 6,
+    {scaled(&Of::part_expansion_uncertainty, 6), "part_expansion_uncertainty_um_per_m_k",
      "part_expansion_uncertainty", 51, kThermalUncertainty,
      "Standard uncertainty of the part's expansion (default: from the source of the material)"},
-    {"scale_expansion_uncertainty_um_per_m_k", &Of::scale_expansion_uncertainty, 6,
+    {scaled(&Of::scale_expansion_uncertainty, 6), "scale_expansion_uncertainty_um_per_m_k",
      "scale_expansion_uncertainty", 52, kThermalUncertainty,
      "Standard uncertainty of the scale's expansion"},
 
-    {"degrees_of_freedom", &Of::degrees_of_freedom, 6, "degrees_of_freedom", 56, kDegreesOfFreedom,
-     "Degrees of freedom of uncertainty_um, 1 to 1000000 (default: infinite)"},
+    {scaled(&Of::degrees_of_freedom, 6), "degrees_of_freedom", "degrees_of_freedom", 56,
+     kDegreesOfFreedom, "Degrees of freedom of uncertainty_um, 1 to 1000000 (default: infinite)"},
 
-    {"offset_um", &Of::offset, 3, "offset_nm", 54, kOffset,
+    {scaled(&Of::offset, 3), "offset_um", "offset_nm", 54, kOffset,
      "Correction of the machine before this part, -1000000 to 1000000"},
-    {"size_operator", &Of::size_operator, "size_operator", 57, kSizeOperator,
+    {&Of::size_operator, "size_operator", "size_operator", 57, kSizeOperator,
      "Size operator of ISO 14405-1, length in characters (default: LP, two-point)"},
-    {"envelope", &Of::envelope, "envelope", 58, kEnvelopeWord,
+    {&Of::envelope, "envelope", "envelope", 58, kEnvelopeWord,
      "required: the size has the modifier (E) of ISO 14405-1"},
-    {"go_gauge", &Of::go_gauge, "go_gauge", 59, kEnvelopeWord,
+    {&Of::go_gauge, "go_gauge", "go_gauge", 59, kEnvelopeWord,
      "passes or fails: result of the GO gauge, which verifies the envelope"},
-    {"confirmed", &Of::confirmed, 0, "confirmed", 66, kTruth,
+    {&Of::confirmed, "confirmed", "confirmed", 66, kTruth,
      "true: a person confirmed a value far outside the limits"},
-    {"inside_corner", &Of::inside_corner, 0, "inside_corner", 70, kTruth,
+    {&Of::inside_corner, "inside_corner", "inside_corner", 70, kTruth,
      "true: the radius or chamfer is that of an inside corner, where one too large is rework"},
 
-    {"caller", &Of::caller, "caller", 32, kNotGiven, {}, 10},
-    {"cycle", &Of::cycle, 0, "cycle", 34, kNotGiven},
-    {"points", &Of::points, 0, "points", 61, kNotGiven},
-    {"start_angle_deg", &Of::start_angle, 6, "start_angle", 62, kNotGiven},
-    {"diameter_factor", &Of::diameter_factor, 6, "diameter_factor", 63, kNotGiven},
-    {"reason", &Of::correction_reason, "correction_reason", 36, kNotGiven},
-    {"uncertainty", &Of::uncertainty_budget, "uncertainty_budget", 46, kNotGiven},
-    {"calibration_due", &Of::calibration_due, "calibration_due", 47, kNotGiven},
-    {"calibration_certificate", &Of::calibration_certificate, "calibration_certificate", 67,
+    {&Of::caller, "caller", "caller", 32, kNotGiven, {}, 10},
+    {&Of::cycle, "cycle", "cycle", 34, kNotGiven},
+    {&Of::points, "points", "points", 61, kNotGiven},
+    {scaled(&Of::start_angle, 6), "start_angle_deg", "start_angle", 62, kNotGiven},
+    {scaled(&Of::diameter_factor, 6), "diameter_factor", "diameter_factor", 63, kNotGiven},
+    {&Of::correction_reason, "reason", "correction_reason", 36, kNotGiven},
+    {&Of::uncertainty_budget, "uncertainty", "uncertainty_budget", 46, kNotGiven},
+    {&Of::calibration_due, "calibration_due", "calibration_due", 47, kNotGiven},
+    {&Of::calibration_certificate, "calibration_certificate", "calibration_certificate", 67,
      kNotGiven},
-    {"calibration_laboratory", &Of::calibration_laboratory, "calibration_laboratory", 68,
+    {&Of::calibration_laboratory, "calibration_laboratory", "calibration_laboratory", 68,
      kNotGiven},
-    {"gauge_blocked", &Of::gauge_blocked, 0, "gauge_blocked", 69, kTruthNotGiven},
-    {"added_uncertainty_um", &Of::added_uncertainty, 6, "added_uncertainty", 53, kNotGiven},
+    {&Of::gauge_blocked, "gauge_blocked", "gauge_blocked", 69, kTruthNotGiven},
+    {scaled(&Of::added_uncertainty, 6), "added_uncertainty_um", "added_uncertainty", 53, kNotGiven},
 };
 
 /// Calls `visit(field, member)` with each field and its pointer, as straight code.

@@ -90,9 +90,7 @@ Result<void> decode_ndjson(std::string_view body, const BatchContext& context,
   std::size_t row = 0;
   std::size_t line = 0;
   for (std::string_view rest = body; !rest.empty();) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    std::string_view text = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+    std::string_view text = take_field(rest, '\n');
     ++line;
     if (text.ends_with('\r')) text.remove_suffix(1);
     if (text.find_first_not_of(" \t") == std::string_view::npos) continue;

@@ -4,6 +4,7 @@
 
 #include "base/digest.hpp"
 #include "base/regular_file.hpp"
+#include "base/text.hpp"
 #include "db/sqlite/data_directory.hpp"
 
 namespace fitgauge::app {
@@ -67,8 +68,7 @@ Result<std::vector<tlog::SigningKey>> read_log_keys(const fs::path& folder) {
   if (!text) return keys;
   std::string_view rest = *text;
   while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    const auto key = tlog::SigningKey::parse(rest.substr(0, end));
+    const auto key = tlog::SigningKey::parse(take_field(rest, '\n'));
     if (!key) {
       return Error{
           ErrorCode::KeyMalformed,
@@ -77,7 +77,6 @@ Result<std::vector<tlog::SigningKey>> read_log_keys(const fs::path& folder) {
                       file.string(), key.error().message)};
     }
     keys.push_back(*key);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   return keys;
 }
