@@ -106,8 +106,6 @@ void for_each_column(const MeasurementRow& row, const Add& add) {
 Prepared::Prepared(Connection& connection, std::string_view sql)
     : connection_(connection), sql_(with_numbers(sql)), name_(connection.new_name()) {}
 
-Prepared::~Prepared() { connection_.forget(name_); }
-
 void Prepared::bind(int index, const Parameter& value) {
   const auto place = static_cast<std::size_t>(index - 1);
   if (values_.size() <= place) {
@@ -144,8 +142,6 @@ void Prepared::send() {
   connection_.send(name_, sql_, values_);
 }
 
-void Prepared::run() { send(); }
-
 bool Prepared::step() {
   if (!result_) {
     send();
@@ -155,21 +151,10 @@ bool Prepared::step() {
   return ++row_ < PQntuples(result_.get());
 }
 
-void Prepared::reset() noexcept { result_.reset(); }
-
-int Prepared::columns() const { return PQnfields(result_.get()); }
-
-bool Prepared::is_null(int column) const { return PQgetisnull(result_.get(), row_, column) != 0; }
-
 std::string_view Prepared::text(int column) const {
   return {PQgetvalue(result_.get(), row_, column),
           static_cast<std::size_t>(PQgetlength(result_.get(), row_, column))};
 }
-
-std::int64_t Prepared::integer(int column) const { return read_number(text(column)); }
-
-MeasurementTable::MeasurementTable(Connection& connection)
-    : connection_(connection), make_part_(connection, "SELECT make_measurement_part(?, ?)") {}
 
 /// Migrations append columns, whatever the order of for_each_column.
 void MeasurementTable::read_type() {

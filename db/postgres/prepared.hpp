@@ -42,20 +42,20 @@ inline std::int64_t read_number(std::string_view bytes) {
 class Prepared final : public sql::Prepared {
  public:
   Prepared(Connection& connection, std::string_view sql);
-  ~Prepared() override;
+  ~Prepared() override { connection_.forget(name_); }
 
   void bind_null(int index, sql::Kind kind) override;
   void bind_integer(int index, std::int64_t value) override;
   void bind_text(int index, std::string_view value) override;
   void bind_blob(int index, std::string_view bytes) override;
 
-  void run() override;
+  void run() override { send(); }
   bool step() override;
-  void reset() noexcept override;
+  void reset() noexcept override { result_.reset(); }
 
-  int columns() const override;
-  bool is_null(int column) const override;
-  std::int64_t integer(int column) const override;
+  int columns() const override { return PQnfields(result_.get()); }
+  bool is_null(int column) const override { return PQgetisnull(result_.get(), row_, column) != 0; }
+  std::int64_t integer(int column) const override { return read_number(text(column)); }
   std::string_view text(int column) const override;
   std::string_view blob(int column) const override { return text(column); }
 
@@ -76,7 +76,7 @@ class Prepared final : public sql::Prepared {
 /// and its place in that log.
 class MeasurementTable final : public sql::MeasurementTable {
  public:
-  explicit MeasurementTable(Connection& connection);
+  explicit MeasurementTable(Connection& connection) : connection_(connection) {}
 
   void append(std::span<const MeasurementRow> rows) override;
   /// Returns the head's last id in a transaction that writes, and the committed one in others.
@@ -90,7 +90,7 @@ class MeasurementTable final : public sql::MeasurementTable {
   void append_row(std::string& bytes, const MeasurementRow& row);
 
   Connection& connection_;
-  sql::Statement make_part_;
+  sql::Statement make_part_{connection_, "SELECT make_measurement_part(?, ?)"};
   Oid row_type_ = 0;                ///< of the table; 0 until it was asked for
   std::vector<std::size_t> order_;  ///< of the table's columns: their indices in a row
   std::string values_;              ///< of one row, and the end of each

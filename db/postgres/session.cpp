@@ -3,35 +3,6 @@
 namespace fitgauge::store::postgres {
 namespace {
 
-/// Positions in the WAL as numbers. A transaction sees data written before its first statement.
-constexpr const char* kHead =
-    "SELECT last_id, own_rows, names, (pg_current_wal_insert_lsn() - '0/0')::bigint,"
-    " coalesce((SELECT xmin::text::bigint FROM schema_migrations ORDER BY number LIMIT 1), 0)"
-    " FROM head";
-constexpr const char* kFlushed = "SELECT (pg_current_wal_flush_lsn() - '0/0')::bigint";
-
-/// A waiting transaction is woken twice, as the next one and as the owner, and then reads the row
-/// again. A transaction that waits for this lock finds the row free. The row still excludes
-/// transactions that do not use the lock.
-constexpr const char* kQueueForHead = "SELECT pg_advisory_xact_lock(6044937214080451862)";
-
-/// The commit releases the row before the WAL is on the disk; the session waits for the disk
-/// afterwards. Not if a standby must have it, because reads would then wait for the standby; nor
-/// with new names, which daemons keep in memory beyond a crash of the server.
-constexpr const char* kSetHead =
-    "UPDATE head SET last_id = ?, own_rows = ? RETURNING"
-    " CASE WHEN names = ? AND current_setting('synchronous_standby_names') = ''"
-    " THEN set_config('synchronous_commit', 'off', true) END,"
-    " CASE WHEN ? = 1 THEN pg_notify('fitgauge', '') END";
-
-/// There is one WAL: after a later commit is on the disk, all earlier ones are. PostgreSQL waits
-/// for the disk only if the transaction has written something, even an empty message.
-constexpr const char* kFlush = "SELECT pg_logical_emit_message(true, 'fitgauge', '')";
-/// If a commit did not release the row early, the disk and the standby have it.
-constexpr const char* kUnlessFlushed =
-    " WHERE pg_current_wal_flush_lsn() < pg_current_wal_insert_lsn()";
-constexpr const char* kOnThisServer = ", set_config('synchronous_commit', 'local', true)";
-
 /// Other daemons find the mark when they sign, and the next start begins a branch.
 void mark_set_back(Connection& connection) {
   connection.send("ROLLBACK");
@@ -82,19 +53,7 @@ Session::Session(const OpenOptions& options, const Clock& clock, std::int64_t da
       names_(names),
       position_(position),
       notifications_(notifications),
-      is_durable_(options.synchronous == Synchronous::Full),
-      begin_reading_(connection_, "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY"),
-      begin_writing_(connection_, "BEGIN ISOLATION LEVEL READ COMMITTED READ WRITE"),
-      queue_for_head_(connection_, kQueueForHead),
-      head_(connection_, kHead),
-      locked_head_(connection_, std::string(kHead) + " FOR UPDATE"),
-      set_head_(connection_, kSetHead),
-      commit_(connection_, "COMMIT"),
-      flush_(connection_, std::string(kFlush) + kUnlessFlushed),
-      flush_here_(connection_, std::string(kFlush) + kOnThisServer),
-      flushed_(connection_, kFlushed),
-      savepoint_(connection_, "SAVEPOINT job"),
-      release_(connection_, "RELEASE job") {
+      is_durable_(options.synchronous == Synchronous::Full) {
   connection_.send(fmt::format("SET fitgauge.daemon = '{}'", daemon));
   if (!is_durable_) connection_.send("SET synchronous_commit = off");
   connection_.wait();
@@ -141,8 +100,6 @@ void Session::begin_writing() {
   queue_for_head_.run();
   read_head(locked_head_);
 }
-
-void Session::commit() { writes_ ? commit_written() : commit_read(); }
 
 /// One exchange with the server for everything that the jobs have postponed.
 void Session::commit_written() {
@@ -205,8 +162,6 @@ void Session::undo() {
 void Session::settle() {
   if (connection_.is_waiting()) connection_.wait();
 }
-
-void Session::release() { release_.run(); }
 
 void Session::probe() {
   position_.require();

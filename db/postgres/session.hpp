@@ -73,12 +73,12 @@ class Session final : public sql::Session {
   Stores& stores() override { return stores_; }
   void begin_reading() override;
   void begin_writing() override;
-  void commit() override;
+  void commit() override { writes_ ? commit_written() : commit_read(); }
   void rollback() noexcept override;
   void savepoint() override;
   void undo() override;
   void settle() override;
-  void release() override;
+  void release() override { release_.run(); }
   void probe() override;
   void tidy_up(WriterCounters& /*counters*/) override {}
 
@@ -96,18 +96,41 @@ class Session final : public sql::Session {
   Notifications& notifications_;
   const bool is_durable_;
   // Each is parsed and planned once, like the statements of the stores.
-  sql::Statement begin_reading_;
-  sql::Statement begin_writing_;
-  sql::Statement queue_for_head_;
-  sql::Statement head_;
-  sql::Statement locked_head_;
-  sql::Statement set_head_;
-  sql::Statement commit_;
-  sql::Statement flush_;
-  sql::Statement flush_here_;
-  sql::Statement flushed_;
-  sql::Statement savepoint_;
-  sql::Statement release_;
+  sql::Statement begin_reading_{connection_, "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY"};
+  sql::Statement begin_writing_{connection_, "BEGIN ISOLATION LEVEL READ COMMITTED READ WRITE"};
+  /// A waiting transaction is woken twice, as the next one and as the owner, and then reads the row
+  /// again. A transaction that waits for this lock finds the row free. The row still excludes
+  /// transactions that do not use the lock.
+  sql::Statement queue_for_head_{connection_, "SELECT pg_advisory_xact_lock(6044937214080451862)"};
+  /// Positions in the WAL as numbers. A transaction sees data written before its first statement.
+  static constexpr const char* kHead =
+      "SELECT last_id, own_rows, names, (pg_current_wal_insert_lsn() - '0/0')::bigint,"
+      " coalesce((SELECT xmin::text::bigint FROM schema_migrations ORDER BY number LIMIT 1), 0)"
+      " FROM head";
+  sql::Statement head_{connection_, kHead};
+  sql::Statement locked_head_{connection_, std::string(kHead) + " FOR UPDATE"};
+  /// The commit releases the row before the WAL is on the disk; the session waits for the disk
+  /// afterwards. Not if a standby must have it, because reads would then wait for the standby; nor
+  /// with new names, which daemons keep in memory beyond a crash of the server.
+  sql::Statement set_head_{
+      connection_,
+      "UPDATE head SET last_id = ?, own_rows = ? RETURNING"
+      " CASE WHEN names = ? AND current_setting('synchronous_standby_names') = ''"
+      " THEN set_config('synchronous_commit', 'off', true) END,"
+      " CASE WHEN ? = 1 THEN pg_notify('fitgauge', '') END"};
+  sql::Statement commit_{connection_, "COMMIT"};
+  /// There is one WAL: after a later commit is on the disk, all earlier ones are. PostgreSQL waits
+  /// for the disk only if the transaction has written something, even an empty message. If a commit
+  /// did not release the row early, the disk and the standby have it.
+  sql::Statement flush_{connection_,
+                        "SELECT pg_logical_emit_message(true, 'fitgauge', '')"
+                        " WHERE pg_current_wal_flush_lsn() < pg_current_wal_insert_lsn()"};
+  sql::Statement flush_here_{connection_,
+                             "SELECT pg_logical_emit_message(true, 'fitgauge', ''), "
+                             "set_config('synchronous_commit', 'local', true)"};
+  sql::Statement flushed_{connection_, "SELECT (pg_current_wal_flush_lsn() - '0/0')::bigint"};
+  sql::Statement savepoint_{connection_, "SAVEPOINT job"};
+  sql::Statement release_{connection_, "RELEASE job"};
   bool is_new_ = true;
   bool writes_ = false;
   Head begun_;  ///< as the transaction found it

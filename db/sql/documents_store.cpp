@@ -38,10 +38,8 @@ std::string select_notes(const sql::Connection& c, std::string_view where) {
 
 struct DocumentsStore::Statements {
   sql::Connection& c;
-  sql::Statement find{c, fmt::format("SELECT {}, {} FROM documents WHERE kind = ? AND name = ?",
-                                     kDocuments.columns, kDocuments.is_sound(c))};
-  sql::Statement list{c, fmt::format("SELECT {}, {} FROM documents WHERE kind = ? ORDER BY name",
-                                     kDocuments.columns, kDocuments.is_sound(c))};
+  sql::Statement find{c, kDocuments.select(c, "WHERE kind = ? AND name = ?")};
+  sql::Statement list{c, kDocuments.select(c, "WHERE kind = ? ORDER BY name")};
   sql::Statement put{c, kDocuments.replace(c)};
   sql::Statement remove{c, "DELETE FROM documents WHERE kind = ? AND name = ? RETURNING 1"};
 };

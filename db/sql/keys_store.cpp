@@ -26,15 +26,13 @@ struct IdempotencyStore::Statements {
   std::chrono::hours retention;
   sql::MeasurementTable& measurements{c.measurements()};
   sql::Statement find{
-      c, fmt::format("SELECT body_digest, status, content_type, location, body, {} FROM "
-                     "idempotent_answers WHERE key = ? AND caller = ? AND method = ? AND path = ?",
-                     kIdempotentAnswers.is_sound(c))};
+      c, kIdempotentAnswers.select(c, "WHERE key = ? AND caller = ? AND method = ? AND path = ?",
+                                   "body_digest, status, content_type, location, body")};
   sql::Statement insert{c, kIdempotentAnswers.insert(c)};
   sql::Statement forwarded{
-      c, fmt::format("SELECT key, caller, method, path, body_digest, status, content_type, "
-                     "location, body, expires_at, {} FROM idempotent_answers WHERE measurement "
-                     "BETWEEN ? AND ? AND path LIKE '/v1/measurements%' ORDER BY id",
-                     kIdempotentAnswers.is_sound(c))};
+      c, kIdempotentAnswers.select(c,
+                                   "WHERE measurement BETWEEN ? AND ? AND path LIKE "
+                                   "'/v1/measurements%' ORDER BY id")};
   sql::Statement is_kept{
       c,
       "SELECT 1 FROM idempotent_answers WHERE key = ? AND caller = ? AND method = ? AND path = ?"};
@@ -87,7 +85,7 @@ void IdempotencyStore::visit_forwarded(std::int64_t first, std::int64_t last,
                                        const Visitor& visit) const {
   Rows rows = statements_->forwarded.query(first, last);
   while (rows.next()) {
-    require_sound(rows, 10, kIdempotentAnswers);
+    require_sound(rows, 11, kIdempotentAnswers);
     visit({.request = {.caller = rows.get<std::string>(1),
                        .method = rows.get<std::string>(2),
                        .path = rows.get<std::string>(3),

@@ -23,11 +23,9 @@ constexpr const char* kPlace =
 
 struct LogStore::Statements {
   sql::Connection& c;
-  sql::Statement state{
-      c, fmt::format("SELECT origin, name, size, {} FROM log WHERE id = 1", kLog.is_sound(c))};
+  sql::Statement state{c, kLog.select(c, "WHERE id = 1")};
   sql::Statement set_name{c, "UPDATE log SET name = ?"};
-  sql::Statement branches{c, fmt::format("SELECT {}, {} FROM log_branches ORDER BY number",
-                                         kLogBranches.columns, kLogBranches.is_sound(c))};
+  sql::Statement branches{c, kLogBranches.select(c, "ORDER BY number")};
   sql::Statement reason{c, "SELECT reason FROM log_marks WHERE mark = ?"};
   sql::Statement mark{c, kLogMarks.insert(c)};
   sql::Statement unmark{c, "DELETE FROM log_marks WHERE mark = ?"};
@@ -168,13 +166,12 @@ struct ChangesStore::Statements {
   sql::Connection& c;
   sql::Statement size{c, "SELECT coalesce(max(id), 0) FROM changes"};
   sql::Statement append{c, kChanges.insert(c)};
-  sql::Statement list{
-      c, fmt::format("SELECT {}, {} FROM changes WHERE id > ?1 AND (?2 IS NULL OR kind = ?2) "
-                     "AND (?3 IS NULL OR name = ?3) AND at >= ?4 AND at < ?5 ORDER BY id "
-                     "LIMIT ?6",
-                     kChangeColumns, kChanges.is_sound(c))};
-  sql::Statement of_kind{c, fmt::format("SELECT {}, {} FROM changes WHERE kind = ?1 ORDER BY id",
-                                        kChangeColumns, kChanges.is_sound(c))};
+  sql::Statement list{c, kChanges.select(c,
+                                         "WHERE id > ?1 AND (?2 IS NULL OR kind = ?2) AND (?3 IS "
+                                         "NULL OR name = ?3) AND at >= ?4 AND at < ?5 ORDER BY id "
+                                         "LIMIT ?6",
+                                         kChangeColumns)};
+  sql::Statement of_kind{c, kChanges.select(c, "WHERE kind = ?1 ORDER BY id", kChangeColumns)};
   sql::Statement leaves{c, "SELECT leaf FROM changes WHERE id > ?1 AND id <= ?2 ORDER BY id"};
 };
 

@@ -140,7 +140,7 @@ bool MeasurementQuery::run_each(const MeasurementFilter& filter, std::span<const
                                 const Visitor& visit) {
   if (statements_.size() > kMostKept) statements_.clear();
   Statement& matching = matching_rows(filter, ListOrder::OldestFirst);
-  return std::all_of(ids.begin(), ids.end(), [&](std::int64_t id) {
+  return std::ranges::all_of(ids, [&](std::int64_t id) {
     return scan(matching, {.first = id, .last = id}, ListOrder::OldestFirst, visit);
   });
 }
@@ -189,7 +189,7 @@ bool MeasurementQuery::scan(Statement& matching, const IdSpan& ids, ListOrder or
     matching.bind(2, left.last);
     std::int64_t count = 0;
     std::int64_t id = 0;
-    for (Rows rows(matching); rows.next(); ++count) {
+    for (Rows rows = matching.query(); rows.next(); ++count) {
       id = rows.get<std::int64_t>(rows.columns() - 1);
       if (!visit(rows)) return false;
     }
@@ -267,7 +267,7 @@ bool MeasurementQuery::run_indexed(const Reading& reading, Statement& matching, 
   return visit_nodes(reading, postings, ids, [&](const IdSpan& span) {
     blocks.bind(first_block, IndexNode::of(span.first, 0).node);
     blocks.bind(last_block, IndexNode::of(span.last, 0).node);
-    for (Rows rows(blocks); rows.next();) {
+    for (Rows rows = blocks.query(); rows.next();) {
       RowSet wanted = RowSet::all();
       for (int i = first; i < rows.columns(); ++i)
         wanted &= RowSet::decode(rows.get<Blob>(i).bytes);
@@ -383,7 +383,8 @@ bool MeasurementQuery::run_noted(const Reading& reading, Statement& matching, co
     in_block.bind(1, whole.first);
     in_block.bind(2, whole.last);
     RowSet wanted;
-    for (Rows rows(in_block); rows.next();) wanted.add(rows.get<std::int64_t>(0) - whole.first);
+    for (Rows rows = in_block.query(); rows.next();)
+      wanted.add(rows.get<std::int64_t>(0) - whole.first);
     for (const FieldValue& posting : postings) {
       if (wanted.empty() || is_source(posting)) break;
       wanted &= rows_in_block(posting, block.node);
@@ -422,10 +423,9 @@ bool MeasurementQuery::run_block(const Reading& reading, Statement& matching, co
       runs.push_back({id, id});
     }
   }
-  if (reading.order == ListOrder::NewestFirst) std::reverse(runs.begin(), runs.end());
-  return std::all_of(runs.begin(), runs.end(), [&](const IdSpan& run) {
-    return scan(matching, run, reading.order, reading.visit);
-  });
+  if (reading.order == ListOrder::NewestFirst) std::ranges::reverse(runs);
+  return std::ranges::all_of(
+      runs, [&](const IdSpan& run) { return scan(matching, run, reading.order, reading.visit); });
 }
 
 Statement& MeasurementQuery::statement(const std::string& sql) {

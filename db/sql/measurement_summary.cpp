@@ -64,8 +64,7 @@ void MeasurementSummary::look_at_filter() {
   }
   is_additive_ = !filter.run_id && !filter.as_of_id && !filter.asks_of_rows() &&
                  is_summed(group_by_) &&
-                 std::none_of(others_.begin(), others_.end(),
-                              [&](const auto& other) { return is_rare(other); }) &&
+                 std::ranges::none_of(others_, [&](const auto& other) { return is_rare(other); }) &&
                  !filter.text(TextField::Tool);
 }
 
@@ -187,7 +186,7 @@ bool MeasurementSummary::add_sums(const IndexNode& node, const TupleColumn& grou
   TupleSums sums;
   for (std::size_t first = 0; first < matching.size(); first += kTuplesTogether) {
     const auto here = matching.subspan(first, std::min(kTuplesTogether, matching.size() - first));
-    if (std::find(here.begin(), here.end(), 1) == here.end()) continue;
+    if (std::ranges::find(here, 1) == here.end()) continue;
     Rows rows = nodes_.pairs(node, PairIndex::kSums, static_cast<int>(first / kTuplesTogether));
     if (!rows.next() || !sums.read(rows.get<Blob>(0).bytes) || sums.size() != here.size()) {
       return false;

@@ -105,31 +105,11 @@ struct MeasurementsStore::Statements {
       "LIMIT 1) AS found"};
   MeasurementQuery ids{connection, "m.id"};
 
-  /// @errors as append
-  Result<void> require_current(std::int64_t id) {
-    if (!by_id.query(id).next()) {
-      return Error{ErrorCode::MeasurementUnknown, fmt::format("measurement not found: {}", id)};
-    }
-    if (replaced_by(id)) {
-      return Error{
-          ErrorCode::MeasurementCorrected,
-          fmt::format("measurement {} has a correction: correct the current measurement", id)};
-    }
-    return {};
-  }
-
   /// If two folders continue one history, their rows would get the same ids.
   Result<void> require_one_history() {
     if (connection.dialect().is_shared) return {};  // no folder, and nothing is forwarded from it
     auto why = read_first<std::string>(forked.query());
     return why ? Error{ErrorCode::LogForked, *std::move(why)} : Result<void>();
-  }
-
-  std::int64_t log_size() {
-    if (const auto counted = table.own_rows()) return *counted;
-    const std::int64_t others = alone();
-    if (others != kLastId) return own_rows(others);
-    return table.last_id();
   }
 
   /// A row whose revision is missing is a bug of the caller. Revisions are never deleted, so a
@@ -169,23 +149,7 @@ struct MeasurementsStore::Statements {
     return numbered;
   }
 
-  std::optional<std::int64_t> corrected_by(std::int64_t id) {
-    return read_first<std::int64_t>(correction.query(id));
-  }
-
-  /// Returns the current correction of a row: its correction, or a rival of that.
-  std::optional<std::int64_t> replaced_by(std::int64_t id) {
-    if (const auto newer = corrected_by(id)) return newer;
-    const auto target = read_first<std::int64_t>(lost_target.query(id));
-    return target ? corrected_by(*target) : std::nullopt;
-  }
-
-  /// Made at the first summary by this field.
-  MeasurementSummary& summary_by(TextField field) {
-    return summaries.try_emplace(field, connection, field).first->second;
-  }
-
-  std::map<TextField, MeasurementSummary> summaries;
+  std::map<TextField, MeasurementSummary> summaries;  ///< each made at its first use
   std::optional<std::int64_t> seen_revision;
   bool may_hold_others = true;  ///< of the writer's: no other connection appends
 };
@@ -196,7 +160,16 @@ MeasurementsStore::MeasurementsStore(sql::Connection& connection)
 Result<void> MeasurementsStore::append(std::span<const MeasurementRow> rows) {
   TRY(statements_->require_one_history());
   for (const MeasurementRow& row : rows) {
-    if (row.correction_of) TRY(statements_->require_current(*row.correction_of));
+    if (const auto of = row.correction_of) {
+      if (!statements_->by_id.query(*of).next()) {
+        return Error{ErrorCode::MeasurementUnknown, fmt::format("measurement not found: {}", *of)};
+      }
+      if (replaced_by(*of)) {
+        return Error{
+            ErrorCode::MeasurementCorrected,
+            fmt::format("measurement {} has a correction: correct the current measurement", *of)};
+      }
+    }
     if (row.table_revision) statements_->require_revision(*row.table_revision);
   }
   if (!statements_->table.own_rows() && statements_->holds_others()) {
@@ -248,11 +221,13 @@ bool MeasurementsStore::find(std::int64_t id, const Visitor& visit) const {
 }
 
 std::optional<std::int64_t> MeasurementsStore::corrected_by(std::int64_t id) const {
-  return statements_->corrected_by(id);
+  return read_first<std::int64_t>(statements_->correction.query(id));
 }
 
 std::optional<std::int64_t> MeasurementsStore::replaced_by(std::int64_t id) const {
-  return statements_->replaced_by(id);
+  if (const auto newer = corrected_by(id)) return newer;
+  const auto target = read_first<std::int64_t>(statements_->lost_target.query(id));
+  return target ? corrected_by(*target) : std::nullopt;
 }
 
 bool MeasurementsStore::has_rivals(std::int64_t correction_of) const {
@@ -343,7 +318,11 @@ void MeasurementsStore::verify_index(const std::function<void(std::string)>& not
   statements_->indexer.verify(note);
 }
 
-std::int64_t MeasurementsStore::log_size() const { return statements_->log_size(); }
+std::int64_t MeasurementsStore::log_size() const {
+  if (const auto counted = statements_->table.own_rows()) return *counted;
+  const std::int64_t others = statements_->alone();
+  return others != kLastId ? statements_->own_rows(others) : last_id();
+}
 
 std::int64_t MeasurementsStore::last_id() const { return statements_->table.last_id(); }
 
@@ -356,7 +335,9 @@ std::optional<Timestamp> MeasurementsStore::newest_received_at() const {
 Result<std::vector<SummaryGroup>> MeasurementsStore::summary(const MeasurementFilter& filter,
                                                              TextField group_by,
                                                              std::size_t max_groups) const {
-  return statements_->summary_by(group_by).run(filter, max_groups);
+  auto& summaries = statements_->summaries;
+  const auto made = summaries.try_emplace(group_by, statements_->connection, group_by).first;
+  return made->second.run(filter, max_groups);
 }
 
 }  // namespace fitgauge::store

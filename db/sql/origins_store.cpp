@@ -9,11 +9,6 @@ using sql::Rows;
 using sql::Statement;
 namespace {
 
-std::string select(const sql::Connection& c, const SealedTable& table, std::string_view columns,
-                   std::string_view where) {
-  return fmt::format("SELECT {}, {} FROM {} {}", columns, table.is_sound(c), table.name, where);
-}
-
 constexpr std::string_view kOriginColumns = "number, digits, first_row, size, checkpoint";
 
 constexpr const char* kBeforeTheFirst = "0";
@@ -23,16 +18,16 @@ constexpr std::string_view kPositionColumn = "number || '-' || lower(hex(tag))";
 
 struct OriginsStore::Statements {
   sql::Connection& c;
-  Statement list{c, select(c, kOrigins, kOriginColumns, "ORDER BY number")};
-  Statement by_digits{c, select(c, kOrigins, kOriginColumns, "WHERE digits = ?")};
-  Statement by_number{c, select(c, kOrigins, kOriginColumns, "WHERE number = ?")};
+  Statement list{c, kOrigins.select(c, "ORDER BY number", kOriginColumns)};
+  Statement by_digits{c, kOrigins.select(c, "WHERE digits = ?", kOriginColumns)};
+  Statement by_number{c, kOrigins.select(c, "WHERE number = ?", kOriginColumns)};
   Statement insert{c, kOrigins.insert(c) + " RETURNING number"};
   Statement set_head{c,
                      "UPDATE origins SET first_row = ?, size = ?, checkpoint = ? WHERE number = ?"};
   Seal seal{c, kOrigins};
-  Statement keys{c, select(c, kOriginKeys, "vkey", "WHERE origin = ? ORDER BY number")};
+  Statement keys{c, kOriginKeys.select(c, "WHERE origin = ? ORDER BY number", "vkey")};
   Statement add_key{c, kOriginKeys.insert(c)};
-  Statement base{c, select(c, kOriginBases, "base, size", "WHERE origin = ?")};
+  Statement base{c, kOriginBases.select(c, "WHERE origin = ?", "base, size")};
   Statement is_base{c, "SELECT count(*) FROM origin_bases WHERE base = ?"};
   Statement set_base{c, kOriginBases.insert(c)};
   Statement put_node{
@@ -46,7 +41,7 @@ struct OriginsStore::Statements {
   Statement revisions{c, "SELECT number, id FROM origin_revisions ORDER BY number"};
   Statement revision{c, "SELECT number FROM origin_revisions WHERE id = ?"};
   Statement add_revision{c, kOriginRevisions.insert(c) + " RETURNING number"};
-  Statement forwarded{c, select(c, kForwarding, "centre, size", "")};
+  Statement forwarded{c, kForwarding.select(c, "", "centre, size")};
   Statement set_forwarded{c, kForwarding.replace(c)};
 };
 
@@ -142,9 +137,7 @@ struct RevisionsStore::Statements {
   Statement newest{
       c, fmt::format("SELECT {} FROM revisions ORDER BY number DESC LIMIT 1", kPositionColumn)};
   Statement position{c, fmt::format("SELECT {} FROM revisions WHERE number = ?", kPositionColumn)};
-  Statement received{c, fmt::format("SELECT number, digest, {} FROM received WHERE kind = ? AND "
-                                    "name = ?",
-                                    kReceived.is_sound(c))};
+  Statement received{c, kReceived.select(c, "WHERE kind = ? AND name = ?", "number, digest")};
   Statement set_received{c, kReceived.replace(c)};
   Statement forget{c, "DELETE FROM received WHERE kind = ? AND name = ?"};
 };

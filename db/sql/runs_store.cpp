@@ -38,22 +38,19 @@ struct RunsStore::Statements {
   sql::Statement insert_trace{c, kRunTraces.insert(c)};
   sql::Statement insert_file{c, kRunFiles.insert(c)};
   sql::Statement status{c, "SELECT status FROM runs WHERE id = ?"};
-  sql::Statement find{c,
-                      fmt::format("SELECT {}, {} FROM runs WHERE id = ?", kRun, kRuns.is_sound(c))};
-  sql::Statement trace{
-      c, fmt::format("SELECT trace, {} FROM run_traces WHERE run = ?", kRunTraces.is_sound(c))};
-  sql::Statement file{c, fmt::format("SELECT path, content, {} FROM run_files WHERE run = ? AND "
-                                     "name_key = ? ORDER BY path",
-                                     kRunFiles.is_sound(c))};
-  sql::Statement page{c, fmt::format("SELECT {}, {} FROM runs WHERE (?1 IS NULL OR "
-                                     "CASE status WHEN 8 THEN 2 ELSE status END = ?1) "
-                                     "AND (?2 IS NULL OR program_key = ?2) AND id < ?3 "
-                                     "ORDER BY id DESC LIMIT ?4",
-                                     kRun, kRuns.is_sound(c))};
+  sql::Statement find{c, kRuns.select(c, "WHERE id = ?", kRun)};
+  sql::Statement trace{c, kRunTraces.select(c, "WHERE run = ?", "trace")};
+  sql::Statement file{
+      c, kRunFiles.select(c, "WHERE run = ? AND name_key = ? ORDER BY path", "path, content")};
+  sql::Statement page{c, kRuns.select(c,
+                                      "WHERE (?1 IS NULL OR CASE status WHEN 8 THEN 2 ELSE status "
+                                      "END = ?1) AND (?2 IS NULL OR program_key = ?2) AND id < ?3 "
+                                      "ORDER BY id DESC LIMIT ?4",
+                                      kRun)};
   sql::Statement abandoned{
-      c, fmt::format("SELECT {}, {} FROM runs WHERE finished_at IS NULL{} ORDER BY id "
-                     "LIMIT ?",
-                     kRun, kRuns.is_sound(c), of_the_dead(c))};
+      c,
+      kRuns.select(
+          c, fmt::format("WHERE finished_at IS NULL{} ORDER BY id LIMIT ?", of_the_dead(c)), kRun)};
   sql::Statement take_over{
       c, fmt::format("UPDATE runs SET status = CASE status WHEN 8 THEN 8 ELSE 1 END{} "
                      "WHERE id = ? AND finished_at IS NULL{} RETURNING 1",

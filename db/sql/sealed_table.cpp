@@ -90,6 +90,12 @@ std::string SealedTable::replace(const sql::Connection& connection) const {
   return fmt::format("{} ON CONFLICT ({}) DO UPDATE SET {}", insert(connection), unique, changes);
 }
 
+std::string SealedTable::select(const sql::Connection& connection, std::string_view rest,
+                                std::string_view selected) const {
+  return fmt::format("SELECT {}, {} FROM {} {}", selected.empty() ? columns : selected,
+                     is_sound(connection), name, rest);
+}
+
 std::string SealedTable::is_sound(const sql::Connection& connection, std::string_view alias) const {
   if (!connection.dialect().has_seals) return "1";
   std::string prefixed;

@@ -47,6 +47,10 @@ struct SealedTable {
   std::string insert(const sql::Connection& connection) const;
   /// Replaces a row that has equal `unique` columns. Triggers see a deletion and an insertion.
   std::string replace(const sql::Connection& connection) const;
+  /// Selects columns (none: all) and, after them, whether the row is sound: for row_of().
+  std::string select(const sql::Connection& connection, std::string_view rest,
+                     std::string_view selected = {}) const;
+
   /// An expression of a SELECT: 0 if a row was altered.
   std::string is_sound(const sql::Connection& connection, std::string_view alias = {}) const;
   /// Selects the keys of altered rows. @pre the engine has seals.

@@ -7,8 +7,6 @@
 
 namespace fitgauge::store::sql {
 
-class Rows;
-
 /// Bytes that are bound and read as a BLOB.
 struct Blob {
   std::string_view bytes;
@@ -63,61 +61,9 @@ void bind_value(Statement& statement, int index, const T& value) {
   }
 }
 
-/// A statement of one connection, prepared at its first use and kept. Bound texts are not copied:
-/// they must live until the statement has run, and every run binds all parameters again.
-class Statement {
- public:
-  Statement(Connection& connection, std::string sql)
-      : connection_(&connection), sql_(std::move(sql)) {}
-
-  /// Runs a statement without result rows to its end.
-  template <class... Values>
-  void run(const Values&... values);
-
-  /// Runs to the end and returns the first column of its first row; for INSERT … RETURNING.
-  template <class T, class... Values>
-  T returning(const Values&... values);
-
-  /// Runs to the end and returns the number of rows; for DELETE … RETURNING.
-  template <class... Values>
-  std::int64_t run_counting(const Values&... values);
-
-  /// Starts a query; one at a time.
-  template <class... Values>
-  Rows query(const Values&... values);
-
-  void release_pages() noexcept {
-    if (prepared_) prepared_->release_pages();
-  }
-
-  /// For long lists of values: bind from 1 on, then query with Rows.
-  template <class T>
-  void bind(int index, const T& value) {
-    bind_value(prepared(), index, value);
-  }
-
- private:
-  friend class Rows;
-
-  template <class... Values>
-  void bind_all(const Values&... values) {
-    int index = 0;
-    (bind(++index, values), ...);
-  }
-  Prepared& prepared() {
-    if (!prepared_) prepared_ = connection_->prepare(sql_);
-    return *prepared_;
-  }
-
-  Connection* connection_;
-  std::string sql_;
-  std::unique_ptr<Prepared> prepared_;
-};
-
 /// The rows of a query; ends it when destroyed, so that no read transaction stays open.
 class Rows {
  public:
-  explicit Rows(Statement& statement) : prepared_(&statement.prepared()) {}
   explicit Rows(Prepared& prepared) : prepared_(&prepared) {}
   Rows(Rows&& other) noexcept : prepared_(std::exchange(other.prepared_, nullptr)) {}
   Rows& operator=(Rows&&) = delete;
@@ -155,17 +101,26 @@ class Rows {
   Prepared* prepared_;
 };
 
+/// Whether a member is one column that outlives its row: structs and arrays of numbers are several,
+/// and a Blob is a view.
+template <class T>
+inline constexpr bool kIsColumn = kIsBytes<T> || !std::is_aggregate_v<T>;
+template <class T>
+inline constexpr bool kIsColumn<std::optional<T>> = kIsColumn<T>;
+
 /// The first column, or an aggregate whose members are the columns in their order.
 template <class T>
 T row_of(const Rows& rows) {
-  if constexpr (std::is_aggregate_v<T>) {
+  if constexpr (std::is_aggregate_v<T> && !kIsBytes<T>) {
     T row{};
     int column = 0;
-    boost::pfr::for_each_field(row, [&](auto& member) {
-      member = rows.get<std::remove_reference_t<decltype(member)>>(column++);
+    boost::pfr::for_each_field(row, [&]<class Member>(Member& member) {
+      static_assert(kIsColumn<Member>, "read this member apart, with Rows::get");
+      member = rows.get<Member>(column++);
     });
     return row;
   } else {
+    static_assert(kIsColumn<T>);
     return rows.get<T>(0);
   }
 }
@@ -184,36 +139,72 @@ std::optional<T> read_first(Rows rows, const auto&... table) {
   return rows.next() ? std::optional(row_of<T>(rows, table...)) : std::nullopt;
 }
 
-template <class... Values>
-void Statement::run(const Values&... values) {
-  bind_all(values...);
-  prepared().run();
-}
+/// A statement of one connection, prepared at its first use and kept. Bound texts are not copied:
+/// they must live until the statement has run, and every run binds all parameters again.
+class Statement {
+ public:
+  Statement(Connection& connection, std::string sql)
+      : connection_(&connection), sql_(std::move(sql)) {}
 
-template <class T, class... Values>
-T Statement::returning(const Values&... values) {
-  Rows rows = query(values...);
-  rows.next();
-  T first = rows.get<T>(0);
-  while (rows.next()) {
+  /// Runs a statement without result rows to its end.
+  template <class... Values>
+  void run(const Values&... values) {
+    bind_all(values...);
+    prepared().run();
   }
-  return first;
-}
 
-template <class... Values>
-std::int64_t Statement::run_counting(const Values&... values) {
-  Rows rows = query(values...);
-  std::int64_t count = 0;
-  while (rows.next()) ++count;
-  return count;
-}
+  /// Runs to the end and returns the first column of its first row; for INSERT … RETURNING.
+  template <class T, class... Values>
+  T returning(const Values&... values) {
+    Rows rows = query(values...);
+    rows.next();
+    T first = rows.get<T>(0);
+    while (rows.next()) {
+    }
+    return first;
+  }
 
-template <class... Values>
-Rows Statement::query(const Values&... values) {
-  prepared();
-  bind_all(values...);
-  return Rows(*this);
-}
+  /// Runs to the end and returns the number of rows; for DELETE … RETURNING.
+  template <class... Values>
+  std::int64_t run_counting(const Values&... values) {
+    Rows rows = query(values...);
+    std::int64_t count = 0;
+    while (rows.next()) ++count;
+    return count;
+  }
+
+  /// Starts a query; one at a time.
+  template <class... Values>
+  Rows query(const Values&... values) {
+    bind_all(values...);
+    return Rows(prepared());
+  }
+
+  void release_pages() noexcept {
+    if (prepared_) prepared_->release_pages();
+  }
+
+  /// For long lists of values: bind from 1 on, then query() without values.
+  template <class T>
+  void bind(int index, const T& value) {
+    bind_value(prepared(), index, value);
+  }
+
+ private:
+  template <class... Values>
+  void bind_all(const Values&... values) {
+    int index = 0;
+    (bind(++index, values), ...);
+  }
+  Prepared& prepared() {
+    if (!prepared_) prepared_ = connection_->prepare(sql_);
+    return *prepared_;
+  }
+
+  Connection* connection_;
+  std::string sql_;
+  std::unique_ptr<Prepared> prepared_;
+};
 
 /// Inserts many rows: in few statements if each is a message to a server; a file is equally fast
 /// row by row.

@@ -39,7 +39,7 @@ Result<void> check_file(const std::filesystem::path& file, std::stop_token stop)
     finding = failure.error().message;
   }
   if (finding == "ok" || stop.stop_requested()) return {};
-  std::replace(finding.begin(), finding.end(), '\n', ' ');  // SQLite's heading is a separate line
+  std::ranges::replace(finding, '\n', ' ');  // SQLite's heading is a separate line
   return Error{ErrorCode::StorageCorrupt,
                fmt::format("{} is damaged: {}. Restore a backup", file.string(), finding)};
 }

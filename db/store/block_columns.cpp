@@ -49,7 +49,7 @@ void BlockColumnsWriter::add(int kind, bool is_current, std::int64_t measured_nm
 
 std::optional<std::string> BlockColumnsWriter::encode() const {
   if (measured_nm_.size() != kBlockRows) return std::nullopt;
-  const auto [least, greatest] = std::minmax_element(measured_nm_.begin(), measured_nm_.end());
+  const auto [least, greatest] = std::ranges::minmax_element(measured_nm_);
   const auto distance_of = [from = *least](std::int64_t nm) {
     return static_cast<std::uint64_t>(nm) - static_cast<std::uint64_t>(from);
   };
@@ -74,7 +74,7 @@ std::optional<std::string> BlockColumnsWriter::encode() const {
   append_difference(bytes, *least, 0);
   append_number(bytes, bits);
   std::vector<std::uint64_t> distances(measured_nm_.size());
-  std::transform(measured_nm_.begin(), measured_nm_.end(), distances.begin(), distance_of);
+  std::ranges::transform(measured_nm_, distances.begin(), distance_of);
   NumberRow::append<std::uint64_t>(bytes, distances, bits);
   return bytes.append(NumberRow::kPadding, '\0');
 }
@@ -150,6 +150,48 @@ bool ValueBlock::read(std::string_view bytes) {
   }
   for (Row& row : rows_) row.measured_nm = in.above(kinds_[row.kind].lower_limit_nm);
   return in.is_at_end();
+}
+
+std::string designation_key(std::int64_t nominal_nm, std::string_view tolerance_class) {
+  return fmt::format("{} {}", nominal_nm, tolerance_class);
+}
+
+RowSet RowSet::all() {
+  RowSet set;
+  set.bits_.fill(0xFF);
+  return set;
+}
+
+std::string RowSet::encode() const {
+  using Word = std::uint64_t;
+  const auto words = std::bit_cast<std::array<Word, sizeof(Bits) / sizeof(Word)>>(bits_);
+  std::string rows;
+  for (std::size_t word = 0; word < words.size() && rows.size() < bits_.size(); ++word) {
+    if (words[word] == 0) continue;  // usually all but one: each row has its part id
+    for (std::size_t i = word * sizeof(Word); i < (word + 1) * sizeof(Word); ++i) {
+      for (unsigned left = bits_[i]; left != 0; left &= left - 1) {
+        const std::size_t row = 8 * i + static_cast<std::size_t>(std::countr_zero(left));
+        rows += static_cast<char>(row & 0xFFU);
+        rows += static_cast<char>(row >> 8U);
+      }
+    }
+  }
+  if (rows.size() < bits_.size()) return rows;
+  return {bits_.begin(), bits_.end()};
+}
+
+RowSet RowSet::decode(std::string_view bytes) {
+  RowSet set;
+  if (bytes.size() == set.bits_.size()) {
+    std::ranges::copy(bytes, set.bits_.begin());
+    return set;
+  }
+  const auto byte = [&](std::size_t i) -> unsigned { return static_cast<unsigned char>(bytes[i]); };
+  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
+    const std::int64_t row = byte(i) | byte(i + 1) << 8U;
+    if (row < kBlock) set.add(row);
+  }
+  return set;
 }
 
 }  // namespace fitgauge::store

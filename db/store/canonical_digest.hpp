@@ -27,7 +27,7 @@ class CanonicalDigest {
   }
 
   void add(const Digest& digest) {
-    std::copy(digest.begin(), digest.end(), room_for(digest.size()));
+    std::ranges::copy(digest, room_for(digest.size()));
     size_ += digest.size();
   }
 
@@ -61,7 +61,7 @@ class CanonicalDigest {
     add_byte('\1');
     add_integer(static_cast<std::int64_t>(text.size()));
     if (text.size() > kCopied) return add_long(text);
-    std::copy(text.begin(), text.end(), room_for(text.size()));
+    std::ranges::copy(text, room_for(text.size()));
     size_ += text.size();
   }
 

@@ -6,6 +6,8 @@ namespace sql {
 class Connection;
 }
 
+// The members of rows are the columns in their order: sql::row_of reads them so.
+
 /// Kinds of documents: texts with a name. The codes are stored: never change one, never use one
 /// again.
 enum class DocumentKind : std::uint8_t {

@@ -10,6 +10,8 @@ namespace sql {
 class Connection;
 }
 
+// The members of rows are the columns in their order: sql::row_of reads them so.
+
 /// A request that carries an Idempotency-Key. Caller, method and path are the key's scope.
 struct IdempotentRequest {
   std::string caller{};

@@ -8,6 +8,8 @@ namespace sql {
 class Connection;
 }
 
+// The members of rows are the columns in their order: sql::row_of reads them so.
+
 /// The log of the measurements of a data folder: its origin, its keys, and the stored nodes of its
 /// tree. The leaves are in the measurements (MeasurementsStore::log_hashes).
 class LogStore {

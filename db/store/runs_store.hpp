@@ -8,6 +8,8 @@ namespace sql {
 class Connection;
 }
 
+// The members of rows are the columns in their order: sql::row_of reads them so.
+
 // The codes are stored: never change one, never use one again.
 enum class RunStatus : std::uint8_t {
   Queued = 1,

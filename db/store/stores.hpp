@@ -32,34 +32,23 @@ class Connection;
 /// `Stores&`. Used by the connection's thread alone. Every function throws StorageFailure when the
 /// storage fails; the writer and the read pool turn that into an Error.
 struct Stores {
-  Stores(sql::Connection& connection, const Clock& clock, std::chrono::hours idempotency_retention)
-      : tables(connection),
-        measurements(connection),
-        notes(connection),
-        idempotency(connection, clock, idempotency_retention),
-        keys(connection),
-        files(connection),
-        documents(connection),
-        changes(connection),
-        runs(connection),
-        events(connection),
-        log(connection),
-        origins(connection),
-        revisions(connection) {}
+  Stores(sql::Connection& of, const Clock& clock, std::chrono::hours idempotency_retention)
+      : connection(of), idempotency(of, clock, idempotency_retention) {}
 
-  TablesStore tables;
-  MeasurementsStore measurements;
-  NotesStore notes;
+  sql::Connection& connection;
   IdempotencyStore idempotency;
-  KeysStore keys;
-  FilesStore files;
-  DocumentsStore documents;
-  ChangesStore changes;
-  RunsStore runs;
-  EventsStore events;
-  LogStore log;
-  OriginsStore origins;
-  RevisionsStore revisions;
+  TablesStore tables{connection};
+  MeasurementsStore measurements{connection};
+  NotesStore notes{connection};
+  KeysStore keys{connection};
+  FilesStore files{connection};
+  DocumentsStore documents{connection};
+  ChangesStore changes{connection};
+  RunsStore runs{connection};
+  EventsStore events{connection};
+  LogStore log{connection};
+  OriginsStore origins{connection};
+  RevisionsStore revisions{connection};
 };
 
 }  // namespace fitgauge::store

@@ -9,6 +9,8 @@ namespace sql {
 class Connection;
 }
 
+// The members of rows are the columns in their order: sql::row_of reads them so.
+
 /// One cell of a table of the standard. `table` and `column` are the caller's names.
 struct TableCell {
   std::string table{};

@@ -37,14 +37,14 @@ TupleWriter::TupleWriter(std::span<const NumberedColumn> columns,
   }
   std::vector<std::size_t> order(columns.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     return columns[a].values().size() < columns[b].values().size();
   });
   for (const std::size_t column : order) {
     if (columns[column].fits() && split_by(columns[column], most)) taken_.push_back(column);
   }
   sort();
-  std::sort(taken_.begin(), taken_.end());
+  std::ranges::sort(taken_);
   statistics_.resize(row_of_tuple_.size());
 }
 
@@ -52,7 +52,7 @@ TupleWriter::TupleWriter(std::span<const NumberedColumn> columns,
 void TupleWriter::sort() {
   std::vector<std::uint32_t> order(row_of_tuple_.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
     const std::size_t row = row_of_tuple_[a], other = row_of_tuple_[b];
     for (const std::size_t column : taken_) {
       const std::uint16_t value = columns_[column].rows()[row];
@@ -121,13 +121,13 @@ bool TupleColumn::read(std::string_view bytes) {
   values.clear();
   for (std::uint64_t i = 0; i < count && in.is_sound(); ++i) values.push_back(in.text());
   numbers = in.rest();
-  return in.is_sound() && std::all_of(numbers.begin(), numbers.end(), [&](char number) {
+  return in.is_sound() && std::ranges::all_of(numbers, [&](char number) {
            return static_cast<unsigned char>(number) < count;
          });
 }
 
 bool TupleColumn::keep(std::string_view value, std::span<std::uint8_t> tuples) const {
-  const auto found = std::find(values.begin(), values.end(), value);
+  const auto found = std::ranges::find(values, value);
   if (found == values.end()) return false;
   const auto wanted = static_cast<char>(found - values.begin());
   for (std::size_t i = 0; i < tuples.size(); ++i) {
@@ -144,7 +144,7 @@ bool TupleSums::read(std::string_view bytes) {
   const auto is_kind = [](char kind) { return static_cast<unsigned char>(kind) < kKinds; };
   const auto add = [](std::size_t sum, char n) { return sum + static_cast<unsigned char>(n); };
   statistics_ = in.bytes(std::accumulate(sizes_.begin(), sizes_.end(), std::size_t{0}, add));
-  return in.is_at_end() && size > 0 && std::all_of(kinds_.begin(), kinds_.end(), is_kind);
+  return in.is_at_end() && size > 0 && std::ranges::all_of(kinds_, is_kind);
 }
 
 std::size_t count_of(const PairStatistics& pairs) {
