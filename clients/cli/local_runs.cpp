@@ -8,8 +8,8 @@
 #include "cli/nc_commands.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/program_cache.hpp"
+#include "service/runs/active_run.hpp"
 #include "service/runs/control_files.hpp"
-#include "service/runs/run_executor.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -79,10 +79,8 @@ class SharedDatabase final : public Database {
         clock_(time),
         names_(chosen.names_changed),
         monitor_(chosen.health_changed),
-        writer_engine_(chosen, time, monitor_, [this, daemon] { return session(daemon); }),
-        reader_engine_(chosen, monitor_, [this, daemon] { return session(daemon); }),
-        writer_(writer_engine_),
-        readers_(reader_engine_) {
+        writer_(chosen, time, monitor_, [this, daemon] { return session(daemon); }),
+        readers_(chosen, monitor_, [this, daemon] { return session(daemon); }) {
     if (chosen.access != Access::Serve) return;
     listener_.emplace(
         chosen.address, daemon, notifications_, [this](bool names) { heard(names); },
@@ -99,15 +97,12 @@ class SharedDatabase final : public Database {
 
   void drain() override {
     if (listener_) listener_->end_when_away();
-    reader_engine_.stop();
-    writer_engine_.stop();
+    readers_.stop();
+    writer_.stop();
     listener_.reset();
   }
 
   Health health() const override { return monitor_.health(); }
-  const WriterCounters& writer_counters() const override { return writer_engine_.counters(); }
-  std::size_t writer_queue() const override { return writer_engine_.queued(); }
-  std::size_t reader_queue() const override { return reader_engine_.queued(); }
   std::optional<ServerFigures> server_figures() const override {
     const std::lock_guard lock(figures_mutex_);
     return figures_;
@@ -132,8 +127,7 @@ class SharedDatabase final : public Database {
   /// Records a notification, which any transaction may send for changed names.
   void heard(bool names) {
     if (names) {
-      readers_.submit([](const Stores&) -> Result<bool> { return true; },
-                      [](const Result<bool>&) {});
+      readers_.submit([](const Stores&) {}, [](const Result<void>&) {});
     }
     if (options_.committed) options_.committed();
   }
@@ -145,10 +139,8 @@ class SharedDatabase final : public Database {
   HealthMonitor monitor_;
   Position position_{[this](const std::string& why) { monitor_.note(Finding::SetBack, why); }};
   std::atomic<bool> is_away_{false};
-  Writer::Engine writer_engine_;
-  ReadPool::Engine reader_engine_;
-  Writer writer_;
-  ReadPool readers_;
+  WriterThread writer_;
+  ReaderThreads readers_;
   mutable std::mutex figures_mutex_;
   Listener::Figures figures_;
   std::optional<Listener> listener_;

@@ -27,24 +27,25 @@ Health HealthMonitor::current() const {
   return {kStates[found - reasons_.begin()], *found};
 }
 
-ReadPool::Engine::Engine(const OpenOptions& options, HealthMonitor& health, sql::OpenSession open)
-    : options_(options), health_(health), open_(std::move(open)), queue_(options.queue_limit) {
+ReaderThreads::ReaderThreads(const OpenOptions& options, HealthMonitor& health,
+                             sql::OpenSession open)
+    : ReadPool(options.queue_limit), options_(options), health_(health), open_(std::move(open)) {
   for (unsigned i = 0; i < options.readers; ++i)
     threads_.emplace_back("a store reader", [this](const auto&) { run(); });
 }
 
-ReadPool::Engine::~Engine() { stop(); }
+ReaderThreads::~ReaderThreads() { stop(); }
 
-void ReadPool::Engine::stop() {
+void ReaderThreads::stop() {
   queue_.close();
   for (Thread& thread : threads_) thread.stop();
   threads_.clear();
 }
 
-void ReadPool::Engine::run() {
+void ReaderThreads::run() {
   std::unique_ptr<sql::Session> session;
   while (const auto taken = queue_.take_one()) {
-    ReadJob& job = **taken;
+    Job<const Stores>& job = **taken;
     std::optional<Error> error;
     try {
       read(session, job);
@@ -63,14 +64,12 @@ void ReadPool::Engine::run() {
 }
 
 /// In a transaction, so that all statements of the job see the same state.
-void ReadPool::Engine::read(std::unique_ptr<sql::Session>& session, ReadJob& job) {
+void ReaderThreads::read(std::unique_ptr<sql::Session>& session, Job<const Stores>& job) {
   if (!session) session = open_();
   job.prepare();
   session->begin_reading();
   job.run(session->stores());
   session->commit();
 }
-
-void ReadPool::enqueue(std::unique_ptr<Job<const Stores>> job) { engine_.enqueue(std::move(job)); }
 
 }  // namespace fitgauge::store

@@ -83,29 +83,22 @@ using OpenSession = std::function<std::unique_ptr<Session>()>;
 namespace fitgauge::store {
 
 /// The reader threads with their connections. The destructor runs queued jobs.
-class ReadPool::Engine {
+class ReaderThreads final : public ReadPool {
  public:
-  using ReadJob = Job<const Stores>;
-
-  Engine(const OpenOptions& options, HealthMonitor& health, sql::OpenSession open);
-  Engine& operator=(Engine&&) = delete;  // neither copied nor moved
-  ~Engine();
-
-  void enqueue(std::unique_ptr<ReadJob> job) { enqueue_or_refuse(queue_, std::move(job)); }
-
-  std::size_t queued() const { return queue_.size(); }
+  ReaderThreads(const OpenOptions& options, HealthMonitor& health, sql::OpenSession open);
+  ReaderThreads& operator=(ReaderThreads&&) = delete;  // neither copied nor moved
+  ~ReaderThreads();
 
   /// Runs queued jobs and ends the threads; later jobs are refused.
   void stop();
 
  private:
   void run();
-  void read(std::unique_ptr<sql::Session>& session, ReadJob& job);
+  void read(std::unique_ptr<sql::Session>& session, Job<const Stores>& job);
 
   const OpenOptions options_;
   HealthMonitor& health_;
   const sql::OpenSession open_;
-  JobQueue<ReadJob> queue_;
   std::vector<Thread> threads_;
 };
 

@@ -71,36 +71,26 @@ milliseconds MaintenancePace::patience(Time now) const {
   return std::max(std::chrono::ceil<milliseconds>(when_quiet_ - now), milliseconds(0));
 }
 
-Writer::Engine::Engine(const OpenOptions& options, const Clock& clock, HealthMonitor& health,
-                       sql::OpenSession open, std::function<void()> check)
-    : options_(options),
+WriterThread::WriterThread(const OpenOptions& options, const Clock& clock, HealthMonitor& health,
+                           sql::OpenSession open, std::function<void()> check)
+    : Writer(options.queue_limit),
+      options_(options),
       clock_(clock),
       health_(health),
       open_(std::move(open)),
-      check_(std::move(check)),
-      queue_(options.queue_limit) {
+      check_(std::move(check)) {
   session();
   thread_ = Thread("the writer", [this](const auto&) { run(); });
 }
 
-Writer::Engine::~Engine() { stop(); }
+WriterThread::~WriterThread() { stop(); }
 
-void Writer::Engine::stop() {
+void WriterThread::stop() {
   queue_.close();
   thread_.stop();
 }
 
-bool Writer::Engine::begin(const IdempotentRequest& request) {
-  const std::lock_guard lock(under_way_mutex_);
-  return under_way_.emplace(request.caller, request.method, request.path, request.key).second;
-}
-
-void Writer::Engine::end(const IdempotentRequest& request) {
-  const std::lock_guard lock(under_way_mutex_);
-  under_way_.erase({request.caller, request.method, request.path, request.key});
-}
-
-void Writer::Engine::run() {
+void WriterThread::run() {
   begin_retention();
   Jobs jobs;
   while (true) {
@@ -118,7 +108,7 @@ void Writer::Engine::run() {
 }
 
 /// Runs one transaction for the first jobs, and delivers their outcomes.
-void Writer::Engine::commit(Jobs& jobs) {
+void WriterThread::commit(Jobs& jobs) {
   Jobs rest;
   if (options_.commit_each) {
     std::move(std::next(jobs.begin()), jobs.end(), std::back_inserter(rest));
@@ -141,8 +131,8 @@ void Writer::Engine::commit(Jobs& jobs) {
 /// one long job before it.
 /// @param errors receives the errors of single jobs, an entry for each that was run.
 /// @returns the error of the whole batch, run or not.
-std::optional<Error> Writer::Engine::try_commit(Jobs& jobs,
-                                                std::vector<std::optional<Error>>& errors) {
+std::optional<Error> WriterThread::try_commit(Jobs& jobs,
+                                              std::vector<std::optional<Error>>& errors) {
   const Health health = health_.health();
   if (health.state == HealthState::Damaged) return Error{ErrorCode::StorageCorrupt, health.reason};
   std::optional<Error> error;
@@ -175,7 +165,7 @@ std::optional<Error> Writer::Engine::try_commit(Jobs& jobs,
   return error;
 }
 
-void Writer::Engine::commit_transaction() {
+void WriterThread::commit_transaction() {
   const std::int64_t own_rows = session().stores().measurements.log_size();
   session().commit();
   counters_.own_rows = own_rows;  // before the outcomes are delivered
@@ -184,7 +174,7 @@ void Writer::Engine::commit_transaction() {
 /// The transaction has only this job: it needs no savepoint, and its postponed statements may fail
 /// as late as in the commit.
 /// @returns as run_in_savepoint().
-std::optional<Error> Writer::Engine::run_alone(WriteJob& job) {
+std::optional<Error> WriterThread::run_alone(WriteJob& job) {
   std::optional<Error> bug;
   try {
     if (job.run(session().stores())) {
@@ -200,7 +190,7 @@ std::optional<Error> Writer::Engine::run_alone(WriteJob& job) {
   return bug;
 }
 
-void Writer::Engine::run_in_savepoints(Jobs& jobs, std::vector<std::optional<Error>>& errors) {
+void WriterThread::run_in_savepoints(Jobs& jobs, std::vector<std::optional<Error>>& errors) {
   const auto end = MaintenancePace::Clock::now() + kLongestBatch;
   do {
     errors.push_back(run_in_savepoint(*jobs[errors.size()]));
@@ -208,7 +198,7 @@ void Writer::Engine::run_in_savepoints(Jobs& jobs, std::vector<std::optional<Err
 }
 
 /// @returns the job's bug, if it threw. Broken storage concerns the whole batch and is thrown.
-std::optional<Error> Writer::Engine::run_in_savepoint(WriteJob& job) {
+std::optional<Error> WriterThread::run_in_savepoint(WriteJob& job) {
   sql::Session& session = *session_;
   session.savepoint();
   std::optional<Error> bug;
@@ -227,23 +217,23 @@ std::optional<Error> Writer::Engine::run_in_savepoint(WriteJob& job) {
   return bug;
 }
 
-Error Writer::Engine::bug_of(const std::exception& thrown) {
+Error WriterThread::bug_of(const std::exception& thrown) {
   const Error bug = internal_error(thrown);
   if (options_.job_threw) options_.job_threw(bug);
   return bug;
 }
 
-milliseconds Writer::Engine::patience() const {
+milliseconds WriterThread::patience() const {
   if (failing_ || options_.access != Access::Serve) return kProbeInterval;
   return pace_.patience(MaintenancePace::Clock::now());
 }
 
-SteadyTime Writer::Engine::steady_time() const {
+SteadyTime WriterThread::steady_time() const {
   return options_.steady_time ? options_.steady_time() : SteadyTime{.time = clock_.now()};
 }
 
 /// Before the first job stores a record with the time of this start.
-void Writer::Engine::begin_retention() {
+void WriterThread::begin_retention() {
   try {
     session().begin_reading();
     retention_.time(steady_time(), session().stores());
@@ -254,7 +244,7 @@ void Writer::Engine::begin_retention() {
 }
 
 /// Checks, while there is nothing to write, that the database is still there.
-void Writer::Engine::look() {
+void WriterThread::look() {
   if (!check_ || health_.health().state == HealthState::Damaged) return;
   try {
     check_();
@@ -263,7 +253,7 @@ void Writer::Engine::look() {
   }
 }
 
-void Writer::Engine::maintain() {
+void WriterThread::maintain() {
   const auto begin = MaintenancePace::Clock::now();
   bool more = false;
   try {
@@ -282,7 +272,7 @@ void Writer::Engine::maintain() {
 }
 
 /// Finds out whether commits work again.
-void Writer::Engine::probe() {
+void WriterThread::probe() {
   if (health_.health().state == HealthState::Damaged) return;
   try {
     if (check_) check_();
@@ -295,13 +285,13 @@ void Writer::Engine::probe() {
   }
 }
 
-void Writer::Engine::succeed() {
+void WriterThread::succeed() {
   failing_ = false;
   health_.note(Finding::Writes);
 }
 
 /// After most failures the connection is opened again, because its memory is not reliable.
-void Writer::Engine::fail(const Error& error) {
+void WriterThread::fail(const Error& error) {
   ++counters_.failed_commits;
   const bool is_reliable = session_ && session_->is_reliable();
   if (session_) session_->rollback();
@@ -311,14 +301,20 @@ void Writer::Engine::fail(const Error& error) {
   health_.note(is_damaged ? Finding::Damage : Finding::Writes, error.message);
 }
 
-sql::Session& Writer::Engine::session() {
+sql::Session& WriterThread::session() {
   if (!session_) session_ = open_();
   return *session_;
 }
 
-void Writer::enqueue(std::unique_ptr<Job<Stores>> job) { engine_.enqueue(std::move(job)); }
-bool Writer::begin(const IdempotentRequest& request) { return engine_.begin(request); }
-void Writer::end(const IdempotentRequest& request) { engine_.end(request); }
+bool Writer::begin(const IdempotentRequest& request) {
+  const std::lock_guard lock(under_way_mutex_);
+  return under_way_.emplace(request.caller, request.method, request.path, request.key).second;
+}
+
+void Writer::end(const IdempotentRequest& request) {
+  const std::lock_guard lock(under_way_mutex_);
+  under_way_.erase({request.caller, request.method, request.path, request.key});
+}
 
 Error Writer::in_progress() {
   return {ErrorCode::IdempotencyInProgress,

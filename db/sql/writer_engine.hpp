@@ -76,33 +76,22 @@ class MaintenancePace {
 };
 
 /// The writer's thread with its session. The destructor runs queued jobs and closes.
-class Writer::Engine {
+class WriterThread final : public Writer {
  public:
-  using WriteJob = Job<Stores>;
-
   /// Opens a session, so that a start fails if the database cannot be opened.
   /// @param check throws a StorageFailure if the session writes to a replaced database; called
   /// before each transaction and once a second.
-  Engine(const OpenOptions& options, const Clock& clock, HealthMonitor& health,
-         sql::OpenSession open, std::function<void()> check = {});
-  Engine& operator=(Engine&&) = delete;  // neither copied nor moved
-  ~Engine();
-
-  void enqueue(std::unique_ptr<WriteJob> job) { enqueue_or_refuse(queue_, std::move(job)); }
-
-  const WriterCounters& counters() const { return counters_; }
-  std::size_t queued() const { return queue_.size(); }
+  WriterThread(const OpenOptions& options, const Clock& clock, HealthMonitor& health,
+               sql::OpenSession open, std::function<void()> check = {});
+  WriterThread& operator=(WriterThread&&) = delete;  // neither copied nor moved
+  ~WriterThread();
 
   /// Runs queued jobs and closes; later jobs are refused.
   void stop();
 
-  /// @returns whether no request of the same scope and key is under way.
-  bool begin(const IdempotentRequest& request);
-  void end(const IdempotentRequest& request);
-
  private:
+  using WriteJob = Job<Stores>;
   using Jobs = JobQueue<WriteJob>::Items;
-  using RequestKey = std::tuple<std::string, std::string, std::string, std::string>;
 
   void run();
   void commit(Jobs& jobs);
@@ -127,10 +116,6 @@ class Writer::Engine {
   HealthMonitor& health_;
   const sql::OpenSession open_;
   const std::function<void()> check_;
-  JobQueue<WriteJob> queue_;
-  WriterCounters counters_;
-  std::mutex under_way_mutex_;
-  std::set<RequestKey> under_way_;
   std::unique_ptr<sql::Session> session_;  // from here on used only by the thread
   bool failing_ = false;
   MaintenancePace pace_;

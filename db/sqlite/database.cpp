@@ -72,7 +72,7 @@ class FileDatabase final : public Database {
         identity_(identity_of(file_)),
         log_files_(file_),
         monitor_(chosen.health_changed),
-        writer_engine_(
+        writer_(
             chosen, time, monitor_,
             [this]() -> std::unique_ptr<sql::Session> {
               require_own_files();
@@ -81,13 +81,10 @@ class FileDatabase final : public Database {
                   options_, clock_, mode, [this] { return check_database(); }, log_files_);
             },
             [this] { require_own_files(); }),
-        reader_engine_(chosen, monitor_,
-                       [this] {
-                         require_own_files();
-                         return std::make_unique<Session>(options_, clock_, Mode::Read);
-                       }),
-        writer_(writer_engine_),
-        readers_(reader_engine_) {
+        readers_(chosen, monitor_, [this] {
+          require_own_files();
+          return std::make_unique<Session>(options_, clock_, Mode::Read);
+        }) {
     const bool too_large_for_the_start =
         std::filesystem::file_size(file_) > options_.check_at_open_limit;
     if (options_.access == Access::Serve) {
@@ -101,8 +98,8 @@ class FileDatabase final : public Database {
   /// The readers first: the last connection to close, the writer's, checkpoints.
   void drain() override {
     scrub_.reset();
-    reader_engine_.stop();
-    writer_engine_.stop();
+    readers_.stop();
+    writer_.stop();
   }
 
   /// Looks at the files as well: a file that was removed is noticed while nobody writes.
@@ -112,9 +109,6 @@ class FileDatabase final : public Database {
     const auto own = check_files();
     return own ? known : Health{HealthState::WritesFailing, own.error().message};
   }
-  const WriterCounters& writer_counters() const override { return writer_engine_.counters(); }
-  std::size_t writer_queue() const override { return writer_engine_.queued(); }
-  std::size_t reader_queue() const override { return reader_engine_.queued(); }
 
   Result<void> backup(const std::filesystem::path& file) const override {
     TRY(check_files());
@@ -157,10 +151,8 @@ class FileDatabase final : public Database {
   const FileIdentity identity_;
   LogFiles log_files_;
   HealthMonitor monitor_;
-  Writer::Engine writer_engine_;
-  ReadPool::Engine reader_engine_;
-  Writer writer_;
-  ReadPool readers_;
+  WriterThread writer_;
+  ReaderThreads readers_;
   std::optional<Scrub> scrub_;
 };
 

@@ -3,32 +3,19 @@
 #include <filesystem>
 
 #include "base/clock.hpp"
-#include "base/histogram.hpp"
 #include "base/result.hpp"
 #include "db/store/jobs.hpp"
 #include "db/store/open_options.hpp"
 
 namespace fitgauge::store {
 
-/// Figures of a database server, for metrics.
+/// Figures of a database server, for metrics; its members are columns in their order (sql::row_of).
 struct ServerFigures {
   std::int64_t database_bytes = 0;
   std::int64_t standbys = 0;  ///< servers that follow this one at the moment
   /// Bytes that the slowest standby does not have on its disk yet; absent without a standby, or if
   /// the user may not see it.
   std::optional<std::int64_t> standby_behind_bytes{};
-};
-
-/// Counts of the writer since the start, for metrics. Written by the writer's thread, read by
-/// any.
-struct WriterCounters {
-  /// Time from a transaction's begin until it is on disk.
-  Histogram<12> commit_seconds{
-      {0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5}};
-  Histogram<9> batch_jobs{{1, 2, 4, 8, 16, 32, 64, 256, 1024}};
-  std::atomic<std::uint64_t> failed_commits{0};
-  std::atomic<std::int64_t> own_rows{0};    ///< MeasurementsStore::log_size() after the last commit
-  std::atomic<std::uint64_t> log_pages{0};  ///< in the write-ahead log after the last commit
 };
 
 /// A database of some engine, with its writer thread and its reader threads. Thread-safe. The
@@ -47,11 +34,6 @@ class Database {
 
   virtual Health health() const = 0;
 
-  virtual const WriterCounters& writer_counters() const = 0;
-  /// Jobs that wait for the writer.
-  virtual std::size_t writer_queue() const = 0;
-  /// Jobs that wait for a reader.
-  virtual std::size_t reader_queue() const = 0;
   /// State of the server, a few seconds old; absent if there is no server or it is unreachable.
   /// Never blocks.
   virtual std::optional<ServerFigures> server_figures() const { return std::nullopt; }

@@ -3,6 +3,7 @@
 #include <future>
 
 #include "base/allowance.hpp"
+#include "base/histogram.hpp"
 #include "base/result.hpp"
 #include "base/thread.hpp"
 #include "base/worker_pool.hpp"
@@ -35,12 +36,33 @@ void tell(Job<Stores>& job, std::optional<Error> error) noexcept {
   });
 }
 
-/// A job made of two callables: Result<T> work(Stores&), which may have a member prepare(), and
-/// void done(Result<T>).
+/// The result of work on stores, which may also return a value that is no Result, or nothing.
+template <class T>
+struct AsResult {
+  using Type = Result<T>;
+};
+template <class T>
+struct AsResult<Result<T>> {
+  using Type = Result<T>;
+};
+template <class Work, class Stores>
+using OutcomeOf = typename AsResult<std::invoke_result_t<Work&, Stores&>>::Type;
+template <class Stores, class Work>
+OutcomeOf<Work, Stores> outcome_of(Work& work, Stores& stores) {
+  if constexpr (std::is_void_v<std::invoke_result_t<Work&, Stores&>>) {
+    work(stores);
+    return {};
+  } else {
+    return work(stores);
+  }
+}
+
+/// A job made of two callables: work(Stores&), which may have a member prepare(), and void done(…)
+/// with its outcome.
 template <class Stores, class Work, class Done>
 class CallableJob final : public Job<Stores> {
  public:
-  using Outcome = std::invoke_result_t<Work&, Stores&>;
+  using Outcome = OutcomeOf<Work, Stores>;
 
   CallableJob(Work work, Done done) : work_(std::move(work)), done_(std::move(done)) {}
 
@@ -48,7 +70,7 @@ class CallableJob final : public Job<Stores> {
     if constexpr (requires { work_.prepare(); }) work_.prepare();
   }
   bool run(Stores& stores) override {
-    outcome_.emplace(work_(stores));
+    outcome_.emplace(outcome_of(work_, stores));
     return outcome_->has_value();
   }
   void deliver() override { done_(*std::move(outcome_)); }
@@ -64,7 +86,7 @@ class CallableJob final : public Job<Stores> {
 /// queue. The memory of the outcome counts for the calling thread; the job's memory does not.
 template <class Queue, class Stores, class Work>
 auto wait_for(Queue& queue, Work work) {
-  using Outcome = std::invoke_result_t<Work&, Stores&>;
+  using Outcome = OutcomeOf<Work, Stores>;
   const std::int64_t before = thread_memory();
   std::int64_t taken = 0;
   auto outcome = [&] {
@@ -73,7 +95,7 @@ auto wait_for(Queue& queue, Work work) {
     queue.submit(
         [&work, &taken](Stores& stores) {
           const std::int64_t begun = thread_memory();
-          Outcome made = work(stores);
+          Outcome made = outcome_of(work, stores);
           taken = thread_memory() - begun;
           hand_over_memory(-taken);
           return made;
@@ -106,15 +128,14 @@ void enqueue_or_refuse(JobQueue<Job>& queue, std::unique_ptr<Job> job) {
 /// Thread-safe. After a failed read the thread opens its connection again.
 class ReadPool {
  public:
-  class Engine;
-  explicit ReadPool(Engine& engine) : engine_(engine) {}
-
-  /// Queues `work`: Result<T>(const Stores&), called on a reader thread. `done`: void(Result<T>) is
-  /// called exactly once, on the reader thread, or on the calling thread when refused at once.
+  /// Queues `work`, called with `const Stores&` on a reader thread: it returns a Result, a value or
+  /// nothing. `done`: void(Result<T>) is called exactly once, on the reader thread, or on the
+  /// calling thread when refused at once.
   /// @errors StorageBusy, ShuttingDown, StorageUnavailable, StorageCorrupt; Internal when it threw.
   template <class Work, class Done>
   void submit(Work work, Done done) {
-    enqueue(
+    enqueue_or_refuse<Job<const Stores>>(
+        queue_,
         std::make_unique<CallableJob<const Stores, Work, Done>>(std::move(work), std::move(done)));
   }
 
@@ -124,10 +145,24 @@ class ReadPool {
     return wait_for<ReadPool, const Stores>(*this, std::move(work));
   }
 
- private:
-  void enqueue(std::unique_ptr<Job<const Stores>> job);
+  std::size_t queued() const { return queue_.size(); }  ///< jobs that wait
 
-  Engine& engine_;
+ protected:
+  explicit ReadPool(std::size_t limit) : queue_(limit) {}
+
+  JobQueue<Job<const Stores>> queue_;
+};
+
+/// Counts of the writer since the start, for metrics. Written by the writer's thread, read by
+/// any.
+struct WriterCounters {
+  /// Time from a transaction's begin until it is on disk.
+  Histogram<12> commit_seconds{
+      {0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5}};
+  Histogram<9> batch_jobs{{1, 2, 4, 8, 16, 32, 64, 256, 1024}};
+  std::atomic<std::uint64_t> failed_commits{0};
+  std::atomic<std::int64_t> own_rows{0};    ///< MeasurementsStore::log_size() after the last commit
+  std::atomic<std::uint64_t> log_pages{0};  ///< in the write-ahead log after the last commit
 };
 
 /// The one thread that writes. It runs all jobs that arrived during the last commit in one
@@ -139,17 +174,16 @@ class ReadPool {
 /// commit succeeded.
 class Writer {
  public:
-  class Engine;
-  explicit Writer(Engine& engine) : engine_(engine) {}
-
-  /// Queues `work`: Result<T>(Stores&), called on the writer thread. If it returns an Error, only
-  /// its own changes are reverted. `done`: void(Result<T>) is called exactly once: on the writer
-  /// thread after the commit, or on the calling thread if the job is refused at once.
+  /// Queues `work`, called with `Stores&` on the writer thread: it returns a Result, a value or
+  /// nothing. If it returns an Error, only its own changes are reverted. `done`: void(Result<T>) is
+  /// called exactly once: on the writer thread after the commit, or on the calling thread if the
+  /// job is refused at once.
   /// @errors StorageBusy if the queue is full; ShuttingDown; StorageUnavailable; StorageCorrupt;
   ///   Internal if the work throws.
   template <class Work, class Done>
   void submit(Work work, Done done) {
-    enqueue(std::make_unique<CallableJob<Stores, Work, Done>>(std::move(work), std::move(done)));
+    enqueue_or_refuse<Job<Stores>>(queue_, std::make_unique<CallableJob<Stores, Work, Done>>(
+                                               std::move(work), std::move(done)));
   }
 
   /// Queues `work`: Result<StoredAnswer>(Stores&), run at most once for the request's key. A
@@ -186,13 +220,23 @@ class Writer {
     return future.get();
   }
 
+  std::size_t queued() const { return queue_.size(); }  ///< jobs that wait
+  const WriterCounters& counters() const { return counters_; }
+
+ protected:
+  explicit Writer(std::size_t limit) : queue_(limit) {}
+
+  JobQueue<Job<Stores>> queue_;
+  WriterCounters counters_;
+
  private:
-  void enqueue(std::unique_ptr<Job<Stores>> job);
+  /// @returns whether no request of the same scope and key is under way.
   bool begin(const IdempotentRequest& request);
   void end(const IdempotentRequest& request);
   static Error in_progress();
 
-  Engine& engine_;
+  std::mutex under_way_mutex_;
+  std::set<std::tuple<std::string, std::string, std::string, std::string>> under_way_;
 };
 
 }  // namespace fitgauge::store

@@ -154,12 +154,13 @@ Result<int> run_key_revoke(const Config& config, const std::string& name) {
 Result<int> run_key_list(const Config& config) {
   const auto app = TRY(attach(config));
   const auto entries = TRY(app->keys().list());
-  for (const app::KeyEntry& entry : entries) {
-    std::cout << fmt::format(
-        "{}\t{}\tcreated {}{}{}\n", entry.name, app::word(entry.role),
-        format_rfc3339(entry.created_at),
-        entry.expires_at ? "\texpires " + format_rfc3339(*entry.expires_at) : std::string(),
-        entry.revoked_at ? "\trevoked " + format_rfc3339(*entry.revoked_at) : std::string());
+  const auto at = [](std::string_view what, const std::optional<std::int64_t>& time) {
+    return time ? fmt::format("\t{} {}", what, format_rfc3339({*time})) : std::string();
+  };
+  for (const auto& key : entries) {
+    std::cout << fmt::format("{}\t{}{}{}{}\n", key.name, app::word(key.role),
+                             at("created", key.created_at_ns), at("expires", key.expires_at_ns),
+                             at("revoked", key.revoked_at_ns));
   }
   return 0;
 }

@@ -6,7 +6,7 @@
 
 #include "base/regular_file.hpp"
 #include "daemon/log.hpp"
-#include "service/log/revisions_text.hpp"
+#include "service/log/station_texts.hpp"
 
 namespace fitgauge::daemon {
 namespace {

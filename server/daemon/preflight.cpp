@@ -17,6 +17,7 @@
 #include "base/regular_file.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/log.hpp"
+#include "db/store/database.hpp"
 
 namespace fitgauge::daemon {
 namespace {
@@ -68,14 +69,14 @@ Result<void> check_file(const std::string& what, const fs::path& file) {
 /// The name of the key that the start makes.
 constexpr const char* kName = "admin";
 
-bool is_valid(const app::KeyEntry& key) { return !key.revoked_at; }
+bool is_valid(const store::ApiKey& key) { return !key.revoked_at_ns; }
 
-Result<void> take_key_of_file(const std::string& file, const std::vector<app::KeyEntry>& known,
+Result<void> take_key_of_file(const std::string& file, const std::vector<store::ApiKey>& known,
                               app::KeyService& keys) {
   const auto token = TRY(read_admin_key(file));
   if (keys.find(token)) return {};
   const bool replaces = std::ranges::any_of(
-      known, [](const app::KeyEntry& key) { return is_valid(key) && key.name == kName; });
+      known, [](const store::ApiKey& key) { return is_valid(key) && key.name == kName; });
   const auto taken =
       replaces ? keys.replace(kName, token) : keys.create(kName, app::Role::Admin, token);
   if (!taken && taken.error().where == "token") {
@@ -201,7 +202,7 @@ Result<void> preflight(const Config& config, const std::string& port_file) {
   TRY(read_connections(config.connections));
   if (const auto tls = tls_options(config)) TRY(http::check_tls(*tls));
   if (!config.admin_key_file.empty()) TRY(read_admin_key(config.admin_key_file));
-  if (!config.database.empty()) TRY(app::check_database(config.database));
+  if (!config.database.empty()) TRY(store::postgres::check_server(config.database));
   TRY(check_folder("data", nearest_existing(config.data)));
   TRY(check_file("admin-key-out", config.admin_key_out));
   return check_file("port-file", port_file);
@@ -228,7 +229,7 @@ Result<std::string> read_admin_key(const std::string& file) {
 Result<void> provide_admin_key(const Config& config, bool needs_one, app::KeyService& keys) {
   const auto known = TRY(keys.list());
   if (!config.admin_key_file.empty()) return take_key_of_file(config.admin_key_file, known, keys);
-  const bool has_one = std::ranges::any_of(known, [](const app::KeyEntry& key) {
+  const bool has_one = std::ranges::any_of(known, [](const store::ApiKey& key) {
     return is_valid(key) && (key.role == app::Role::Admin || key.name == kName);
   });
   if (has_one || !needs_one) return {};

@@ -9,6 +9,7 @@
 
 #include "base/regular_file.hpp"
 #include "daemon/log.hpp"
+#include "db/store/database.hpp"
 
 namespace fitgauge::daemon {
 namespace {
@@ -79,16 +80,17 @@ void write_server_metrics(const http::Server& server, api::Exposition& out) {
 void write_application_metrics(app::Application& app, api::Exposition& out) {
   out.gauge("fitgauge_ready", "1 when the service is ready (/readyz)")
       .sample(app.readiness().findings.empty() ? 1 : 0);
-  const app::WriterFigures writer = app.writer();
+  const store::Writer& writer = app.database().writer();
+  const store::WriterCounters& counters = writer.counters();
   out.gauge("fitgauge_writer_queue_jobs", "Jobs that wait for the writer")
-      .sample(static_cast<double>(writer.queued));
+      .sample(static_cast<double>(writer.queued()));
   out.histogram("fitgauge_writer_batch_jobs", "Jobs that one commit stored")
-      .sample(writer.batch_jobs);
+      .sample(counters.batch_jobs);
   out.histogram("fitgauge_writer_commit_duration_seconds",
                 "Time of a transaction from its begin to the disk")
-      .sample(writer.commit_seconds);
+      .sample(counters.commit_seconds);
   out.counter("fitgauge_writer_failures_total", "Commits and maintenance steps that failed")
-      .sample(static_cast<double>(writer.failures));
+      .sample(static_cast<double>(counters.failed_commits));
   out.gauge("fitgauge_event_readers", "Open streams of /v1/events, and outgoing connections")
       .sample(static_cast<double>(app.events().readers()));
   const app::RunService::Counts runs = app.runs().counts();
@@ -113,30 +115,28 @@ void write_clock_metrics(const Clock& clock, const Clock& machine, api::Expositi
 
 void write_storage_metrics(const app::Application& app, const fs::path& folder,
                            api::Exposition& out) {
-  const app::StorageFigures storage = app.storage();
-  const auto sample = [&out](const auto& value) {
-    if (value) out.sample(static_cast<double>(*value));
-  };
+  app::Database& database = app.database();
+  const auto server = database.server_figures();
   out.gauge("fitgauge_reader_queue_jobs", "Jobs that wait for a reader of the database")
-      .sample(static_cast<double>(storage.readers_queued));
+      .sample(static_cast<double>(database.readers().queued()));
   // Every metric is listed; samples only if the engine knows them.
   out.gauge("fitgauge_database_standbys", "Standby servers of the database");
-  sample(storage.standbys);
+  if (server) out.sample(static_cast<double>(server->standbys));
   out.gauge("fitgauge_database_standby_behind_bytes",
             "Bytes of the write-ahead log that are not on the disk of the slowest server");
-  sample(storage.standby_behind_bytes);
+  if (server && server->standby_behind_bytes) {
+    out.sample(static_cast<double>(*server->standby_behind_bytes));
+  }
   struct statvfs space {};
-  const bool has_files = !storage.is_on_server && statvfs(folder.c_str(), &space) == 0;
+  const bool has_files = !app.is_on_server() && statvfs(folder.c_str(), &space) == 0;
   out.gauge("fitgauge_storage_free_bytes", "Free space where the database lies");
   if (has_files) {
     out.sample(static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize));
   }
   out.gauge("fitgauge_wal_pages", "Pages in the write-ahead log after the last commit");
-  if (has_files) out.sample(static_cast<double>(app.writer().log_pages));
+  if (has_files) out.sample(static_cast<double>(database.writer().counters().log_pages));
   out.gauge("fitgauge_database_bytes", "Size of the database");
-  if (storage.server_bytes) {
-    out.sample(static_cast<double>(*storage.server_bytes), {{"file", "database"}});
-  }
+  if (server) out.sample(static_cast<double>(server->database_bytes), {{"file", "database"}});
   if (!has_files) return;
   out.sample(size_of(folder / "fitgauge.db"), {{"file", "database"}});
   out.sample(size_of(folder / "fitgauge.db-wal"), {{"file", "wal"}});

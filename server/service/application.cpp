@@ -102,7 +102,7 @@ class LaterNames {
   }
 
   void read() const {
-    (void)database_.readers().wait([this](const Stores& stores) -> Result<bool> {
+    (void)database_.readers().wait([this](const Stores& stores) {
       for (const store::TableRevision& revision : stores.tables.list()) {
         revisions_.emplace(revision.number, revision.id);
       }
@@ -112,7 +112,6 @@ class LaterNames {
       for (const auto& origin : stores.origins.list()) {
         digits_.emplace(origin.number, origin.digits);
       }
-      return true;
     });
   }
 
@@ -238,7 +237,7 @@ bool Application::take_names(const Stores& stores) {
 std::optional<tlog::Hash> Application::kept_node(std::int64_t origin,
                                                  const tlog::Node& node) const {
   std::optional<tlog::Hash> kept;
-  const auto read = database_->readers().wait([&](const Stores& stores) -> Result<bool> {
+  const auto read = database_->readers().wait([&](const Stores& stores) {
     const int level = static_cast<int>(node.level / tlog::kTileHeight);
     const auto index = static_cast<std::int64_t>(node.index);
     const auto take = [&](const Digest& hash) { kept = hash; };
@@ -247,44 +246,37 @@ std::optional<tlog::Hash> Application::kept_node(std::int64_t origin,
     } else {
       stores.origins.nodes(origin, level, index, 1, take);
     }
-    return true;
   });
   return read ? kept : std::nullopt;
 }
 
-WriterFigures Application::writer() const {
-  const store::WriterCounters& counters = database_->writer_counters();
-  return {.queued = database_->writer_queue(),
-          .commit_seconds = counters.commit_seconds,
-          .batch_jobs = counters.batch_jobs,
-          .failures = counters.failed_commits,
-          .log_pages = counters.log_pages};
-}
-
-StorageFigures Application::storage() const {
-  StorageFigures figures{.readers_queued = database_->reader_queue(),
-                         .is_on_server = is_on_server_};
-  if (const auto server = database_->server_figures()) {
-    figures.server_bytes = server->database_bytes;
-    figures.standbys = server->standbys;
-    figures.standby_behind_bytes = server->standby_behind_bytes;
+Readiness Application::readiness() const {
+  Readiness readiness{.findings = tables_->state()->findings, .database = "ok"};
+  const store::Health health = database_->health();
+  switch (health.state) {
+    case store::HealthState::Ok: break;
+    case store::HealthState::Checking: readiness.database = "checking"; break;
+    case store::HealthState::WritesFailing:
+      readiness.findings.push_back({ErrorCode::StorageUnavailable, health.reason, "database"});
+      break;
+    case store::HealthState::Damaged:
+      readiness.findings.push_back({ErrorCode::StorageCorrupt, health.reason, "database"});
+      break;
   }
-  return figures;
+  if (auto forked = log_->forked()) readiness.findings.push_back(*std::move(forked));
+  return readiness;
 }
-
-Readiness Application::readiness() const { return app::readiness(*database_, *tables_, *log_); }
 
 Result<std::optional<Timestamp>> Application::newest_measurement() const {
-  return database_->readers().wait([](const Stores& stores) -> Result<std::optional<Timestamp>> {
-    return stores.measurements.newest_received_at();
-  });
+  return database_->readers().wait(
+      [](const Stores& stores) { return stores.measurements.newest_received_at(); });
 }
 
 Result<void> Application::backup(const std::filesystem::path& file) const {
   // Reads the checkpoint first: the copy is made after it, and so has everything it covers. A
   // running daemon signs its rows within a second.
   const auto rows = database_->readers().wait(
-      [](const Stores& stores) -> Result<std::int64_t> { return stores.measurements.log_size(); });
+      [](const Stores& stores) { return stores.measurements.log_size(); });
   const auto until = std::chrono::steady_clock::now() + kPatienceForCheckpoint;
   auto checkpoint = read_small_file(directory_ / kCheckpointFile);
   while (rows && size_of(checkpoint) < static_cast<std::uint64_t>(*rows) &&

@@ -2,37 +2,16 @@
 
 #include <filesystem>
 
-#include "base/histogram.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/events/event_service.hpp"
 #include "service/jobs.hpp"
-#include "service/log/log_outbox.hpp"
-#include "service/revisions/revision_intake.hpp"
+#include "service/log/log_forwarding.hpp"
+#include "service/revisions/revisions.hpp"
 #include "service/runs/run_service.hpp"
 #include "service/state/readiness.hpp"
 #include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::app {
-
-/// Figures of the database's writer, for metrics: now, and since the start.
-struct WriterFigures {
-  std::size_t queued = 0;  ///< jobs that wait
-  const Histogram<12>& commit_seconds;
-  const Histogram<9>& batch_jobs;
-  std::uint64_t failures = 0;
-  std::uint64_t log_pages = 0;  ///< in the write-ahead log
-};
-
-/// Further figures of the database, for metrics.
-struct StorageFigures {
-  std::size_t readers_queued = 0;  ///< jobs that wait for a reader
-  bool is_on_server = false;       ///< not in files of the data folder
-
-  // State of the database server; absent if there is none or it is unreachable.
-  std::optional<std::int64_t> server_bytes{};
-  std::optional<std::int64_t> standbys{};
-  std::optional<std::int64_t> standby_behind_bytes{};  ///< of the last of them
-};
 
 struct ApplicationOptions {
   std::filesystem::path directory;  ///< of the database; with a server, only of the log's key
@@ -91,8 +70,9 @@ class Application {
   RunService& runs() { return *runs_; }
 
   Readiness readiness() const;
-  WriterFigures writer() const;
-  StorageFigures storage() const;
+  /// For metrics.
+  Database& database() const { return *database_; }
+  bool is_on_server() const { return is_on_server_; }  ///< not in files of the data folder
 
   // These block: for the start and for commands.
 

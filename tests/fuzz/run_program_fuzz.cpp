@@ -7,7 +7,7 @@
 #include "api/runs/setup_codec.hpp"
 #include "base/json/field_reader.hpp"
 #include "base/json/json_value.hpp"
-#include "service/runs/run_executor.hpp"
+#include "service/runs/active_run.hpp"
 #include "service/runs/stored_run.hpp"
 
 using namespace fitgauge;

@@ -6,8 +6,7 @@
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/thread.hpp"
-#include "service/log/batch_text.hpp"
-#include "service/log/revisions_text.hpp"
+#include "service/log/station_texts.hpp"
 
 namespace fitgauge::simulation {
 namespace {

@@ -3,8 +3,7 @@
 #include "api/wire/problem.hpp"
 #include "base/json/json_writer.hpp"
 #include "service/jobs.hpp"
-#include "service/log/batch_text.hpp"
-#include "service/log/revisions_text.hpp"
+#include "service/log/station_texts.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -140,7 +140,7 @@ Result<std::string> list_of(const KindOfDocument& kind,
   for (const app::NamedDocument& document : documents) {
     json.begin_object();
     TRY(kind.describe(json, document));
-    json.member("modified_at", format_rfc3339(document.modified_at)).end_object();
+    json.member("modified_at", format_rfc3339({document.modified_at_ns})).end_object();
   }
   json.end_array().end_object();
   return body;

@@ -4,8 +4,7 @@
 #include "base/json/json_value.hpp"
 #include "base/number.hpp"
 #include "base/regular_file.hpp"
-#include "service/log/batch_text.hpp"
-#include "service/log/revisions_text.hpp"
+#include "service/log/station_texts.hpp"
 
 namespace fitgauge::forwarder {
 namespace {

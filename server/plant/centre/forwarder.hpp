@@ -4,8 +4,8 @@
 
 #include "base/thread.hpp"
 #include "http/client/http_client.hpp"
-#include "service/log/log_outbox.hpp"
-#include "service/revisions/revision_intake.hpp"
+#include "service/log/log_forwarding.hpp"
+#include "service/revisions/revisions.hpp"
 
 namespace fitgauge::forwarder {
 

@@ -3,7 +3,7 @@
 #include "base/thread.hpp"
 #include "db/store/database.hpp"
 #include "service/log/changes.hpp"
-#include "service/revisions/revision_feed.hpp"
+#include "service/revisions/revisions.hpp"
 
 namespace fitgauge::app {
 namespace {
@@ -82,32 +82,20 @@ Result<void> check_free(const Stores& stores, DocumentKind kind, const std::stri
   return check_unused(called(kind, name), users);
 }
 
-NamedDocument named_document(store::Document document) {
-  return {.name = std::move(document.name),
-          .text = std::move(document.text),
-          .modified_at = {document.modified_at_ns}};
-}
-
 Result<NamedDocument> find(const Stores& stores, DocumentKind kind, const std::string& name) {
   auto found = stores.documents.find(kind, name);
   if (!found) return unknown_document(kind, name);
-  return named_document(*std::move(found));
+  return *std::move(found);
 }
 
-Result<std::vector<NamedDocument>> all_of(const Stores& stores, DocumentKind kind) {
-  std::vector<NamedDocument> documents;
-  for (store::Document& document : stores.documents.list(kind)) {
-    documents.push_back(named_document(std::move(document)));
-  }
-  return documents;
-}
-
-/// The texts of gauges in use that were replaced, the oldest first.
+/// The texts of gauges in use that were replaced, the oldest first, with the time of the change.
 std::vector<NamedDocument> past_gauges(const Stores& stores) {
   std::vector<NamedDocument> past;
   for (store::Change& change : stores.changes.of_kind("gauge")) {
     if (!change.before) continue;
-    past.push_back({std::move(change.name), *std::move(change.before), {change.at_ns}});
+    past.push_back({.name = std::move(change.name),
+                    .text = *std::move(change.before),
+                    .modified_at_ns = change.at_ns});
   }
   return past;
 }
@@ -201,17 +189,16 @@ void DocumentService::remove(DocumentKind kind, std::string name, Precondition p
 }
 
 void DocumentService::list(DocumentKind kind, Done<std::vector<NamedDocument>> done) {
-  database_.readers().submit([kind](const Stores& stores) { return all_of(stores, kind); },
+  database_.readers().submit([kind](const Stores& stores) { return stores.documents.list(kind); },
                              std::move(done));
 }
 
 void DocumentService::list_each(std::vector<DocumentKind> kinds, bool has_past,
                                 Done<std::vector<std::vector<NamedDocument>>> done) {
   database_.readers().submit(
-      [kinds = std::move(kinds),
-       has_past](const Stores& stores) -> Result<std::vector<std::vector<NamedDocument>>> {
+      [kinds = std::move(kinds), has_past](const Stores& stores) {
         std::vector<std::vector<NamedDocument>> lists;
-        for (const DocumentKind kind : kinds) lists.push_back(all_of(stores, kind).value());
+        for (const DocumentKind kind : kinds) lists.push_back(stores.documents.list(kind));
         if (has_past) lists.push_back(past_gauges(stores));
         return lists;
       },
@@ -224,7 +211,8 @@ Result<NamedDocument> DocumentService::wait_for(DocumentKind kind, const std::st
 }
 
 Result<std::vector<NamedDocument>> DocumentService::wait_for_list(DocumentKind kind) {
-  return database_.readers().wait([kind](const Stores& stores) { return all_of(stores, kind); });
+  return database_.readers().wait(
+      [kind](const Stores& stores) { return stores.documents.list(kind); });
 }
 
 Result<bool> DocumentService::write_and_wait(Change change) {

@@ -20,12 +20,8 @@ void add_users(std::vector<std::string>& users, const Stores& stores, DocumentKi
 /// @errors DocumentInUse, if there are users.
 Result<void> check_unused(std::string_view what, const std::vector<std::string>& users);
 
-/// A document as written.
-struct NamedDocument {
-  std::string name;
-  std::string text;  ///< JSON, checked when it was stored
-  Timestamp modified_at;
-};
+/// A document whose text is JSON, checked when it was stored.
+using NamedDocument = store::Document;
 
 /// Uncertainty budgets, gauges in use, their studies, machine setups, plans, connections and
 /// catalogues. Functions do not block unless documented; `done` is called exactly once, on a

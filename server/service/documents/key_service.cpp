@@ -11,6 +11,14 @@ namespace {
 constexpr std::chrono::seconds kReloadInterval{1};
 constexpr std::array<std::string_view, 4> kRoles{"viewer", "operator", "admin", "station"};
 
+Result<store::ApiKey> create_key(Stores& stores, const std::string& name, Role role,
+                                 const std::string& token, std::int64_t now_ns,
+                                 std::optional<std::int64_t> expires_at_ns = {}) {
+  auto key = stores.keys.create(name, role, token, now_ns, expires_at_ns);
+  if (key) log_key(stores, name, now_ns, true);
+  return key;
+}
+
 }  // namespace
 
 std::string_view word(Role role) { return kRoles.at(static_cast<std::size_t>(role) - 1); }
@@ -44,9 +52,6 @@ Result<void> revoke_key(Stores& stores, const std::string& name, std::int64_t no
   return {};
 }
 
-KeyService::KeyService(Database& database, const Clock& clock, Tell tell)
-    : database_(database), clock_(clock), tell_(std::move(tell)) {}
-
 KeyService::~KeyService() = default;
 
 Result<std::unique_ptr<KeyService>> KeyService::open(Database& database, const Clock& clock,
@@ -62,8 +67,8 @@ Result<std::unique_ptr<KeyService>> KeyService::open(Database& database, const C
 
 Result<void> KeyService::reload() {
   const std::lock_guard lock(loading_);
-  auto ring = TRY(database_.readers().wait(
-      [](const Stores& stores) -> Result<store::KeyRing> { return stores.keys.ring(); }));
+  auto ring =
+      TRY(database_.readers().wait([](const Stores& stores) { return stores.keys.ring(); }));
   const auto before = ring_.get();
   const auto now = std::make_shared<const store::KeyRing>(std::move(ring));
   ring_.set(now);
@@ -108,11 +113,9 @@ Result<std::string> KeyService::create(const std::string& name, Role role, std::
                                        std::optional<Timestamp> expires) {
   if (token.empty()) token = store::new_token();
   const std::int64_t now = clock_.now().nanoseconds;
-  TRY(database_.writer().wait([&](Stores& stores) -> Result<store::ApiKey> {
-    auto key = stores.keys.create(name, role, token, now,
-                                  expires ? std::optional(expires->nanoseconds) : std::nullopt);
-    if (key) log_key(stores, name, now, true);
-    return key;
+  TRY(database_.writer().wait([&](Stores& stores) {
+    return create_key(stores, name, role, token, now,
+                      expires ? std::optional(expires->nanoseconds) : std::nullopt);
   }));
   TRY(reload());
   return token;
@@ -120,13 +123,11 @@ Result<std::string> KeyService::create(const std::string& name, Role role, std::
 
 Result<std::string> KeyService::replace(const std::string& name, const std::string& token) {
   const std::int64_t now = clock_.now().nanoseconds;
-  const auto replaced = database_.writer().wait([&](Stores& stores) -> Result<store::ApiKey> {
+  const auto exchange = [&](Stores& stores) -> Result<store::ApiKey> {
     TRY(revoke_key(stores, name, now));
-    auto key = stores.keys.create(name, store::Role::Admin, token, now);
-    if (key) log_key(stores, name, now, true);
-    return key;
-  });
-  if (!replaced) return replaced.error();
+    return create_key(stores, name, store::Role::Admin, token, now);
+  };
+  TRY(database_.writer().wait(exchange));
   TRY(reload());
   return token;
 }
@@ -137,19 +138,8 @@ Result<void> KeyService::revoke(const std::string& name) {
   return reload();
 }
 
-Result<std::vector<KeyEntry>> KeyService::list() const {
-  return database_.readers().wait([](const Stores& stores) -> Result<std::vector<KeyEntry>> {
-    std::vector<KeyEntry> entries;
-    for (const store::ApiKey& key : stores.keys.list()) {
-      KeyEntry& entry = entries.emplace_back();
-      entry.name = key.name;
-      entry.role = key.role;
-      entry.created_at = {key.created_at_ns};
-      if (key.revoked_at_ns) entry.revoked_at = Timestamp{*key.revoked_at_ns};
-      if (key.expires_at_ns) entry.expires_at = Timestamp{*key.expires_at_ns};
-    }
-    return entries;
-  });
+Result<std::vector<store::ApiKey>> KeyService::list() const {
+  return database_.readers().wait([](const Stores& stores) { return stores.keys.list(); });
 }
 
 }  // namespace fitgauge::app

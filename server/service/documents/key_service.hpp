@@ -29,14 +29,6 @@ struct KnownCaller {
   bool is_expired = false;
 };
 
-struct KeyEntry {
-  std::string name;
-  Role role = Role::Viewer;
-  Timestamp created_at;
-  std::optional<Timestamp> revoked_at;
-  std::optional<Timestamp> expires_at;
-};
-
 /// API keys. Finding one needs no storage; the keys are loaded again every second, because the
 /// command line also changes them. Thread-safe.
 class KeyService {
@@ -67,10 +59,11 @@ class KeyService {
   Result<std::string> replace(const std::string& name, const std::string& token);
   /// @errors NotFound.
   Result<void> revoke(const std::string& name);
-  Result<std::vector<KeyEntry>> list() const;
+  Result<std::vector<store::ApiKey>> list() const;  ///< oldest first, with revoked keys
 
  private:
-  KeyService(Database& database, const Clock& clock, Tell tell);
+  KeyService(Database& database, const Clock& clock, Tell tell)
+      : database_(database), clock_(clock), tell_(std::move(tell)) {}
   Result<void> reload();
   void tell_changes(const store::KeyRing& before, const store::KeyRing& now) const;
 

@@ -113,8 +113,6 @@ CommitSignal::CommitSignal()
     : thread_("commit signal", [this](const std::stop_token& stop) { run(stop); }) {}
 CommitSignal::~CommitSignal() = default;
 
-void CommitSignal::stop() { thread_.stop(); }
-
 void CommitSignal::raise() {
   const std::lock_guard lock(mutex_);
   if (raised_ || listeners_.empty()) return;
@@ -214,7 +212,7 @@ void EventService::read(const Place& place, Write write, PageDone done) {
 void EventService::read_stored(std::int64_t after, std::size_t limit,
                                std::function<void(Result<StoredPage>)> done) {
   database_.readers().submit(
-      [this, after, limit](const Stores& stores) -> Result<StoredPage> {
+      [this, after, limit](const Stores& stores) {
         const store::EventsStore::Kept kept = stores.events.kept();
         StoredPage page{.newest = kept.newest, .gap = after + 1 < kept.oldest};
         for (store::Event& event : stores.events.after(after, limit)) {

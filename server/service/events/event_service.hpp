@@ -27,7 +27,7 @@ class CommitSignal {
   void raise();
 
   /// Ends the thread; then no listener is called. Listeners must not call it.
-  void stop();
+  void stop() { thread_.stop(); }
 
   void add(std::shared_ptr<CommitListener> listener);
   /// Removes a listener; a running call may still end afterwards.

@@ -42,9 +42,7 @@ Result<interpreter::ControlPath> parse_file_path(std::string_view text) {
 std::optional<interpreter::ControlFile> StoredDisk::find(
     const interpreter::ControlPath& path) const {
   auto found = database_.readers().wait(
-      [&path](const Stores& stores) -> Result<std::optional<store::FileContent>> {
-        return stores.files.find(path.text());
-      });
+      [&path](const Stores& stores) { return stores.files.find(path.text()); });
   if (!found) throw store::StorageFailure(found.error());
   if (!*found) return std::nullopt;
   store::FileContent& file = **found;
@@ -57,18 +55,15 @@ std::optional<interpreter::ControlFile> StoredDisk::find(
 
 std::optional<std::string> StoredDisk::revision(const interpreter::ControlPath& path) const {
   const auto found = database_.readers().wait(
-      [&path](const Stores& stores) -> Result<std::optional<store::FileEntry>> {
-        return stores.files.stat(path.text());
-      });
+      [&path](const Stores& stores) { return stores.files.stat(path.text()); });
   if (!found) throw store::StorageFailure(found.error());
   if (!*found) return std::nullopt;
   return std::to_string((*found)->revision);
 }
 
 bool StoredDisk::has_directory(std::string_view directory) const {
-  const auto found = database_.readers().wait([directory](const Stores& stores) {
-    return Result<bool>(!stores.files.list(directory).empty());
-  });
+  const auto found = database_.readers().wait(
+      [directory](const Stores& stores) { return !stores.files.list(directory).empty(); });
   if (!found) throw store::StorageFailure(found.error());
   return *found;
 }
@@ -150,7 +145,7 @@ void FileService::remove(interpreter::ControlPath path, std::optional<std::strin
 
 void FileService::list(std::string prefix, Done<std::vector<DiskFile>> done) {
   database_.readers().submit(
-      [prefix = std::move(prefix)](const Stores& stores) -> Result<std::vector<DiskFile>> {
+      [prefix = std::move(prefix)](const Stores& stores) {
         std::vector<DiskFile> files;
         for (store::FileEntry& entry : stores.files.list(prefix)) {
           files.push_back(disk_file(std::move(entry)));

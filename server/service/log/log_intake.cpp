@@ -1,4 +1,4 @@
-#include "service/log/log_intake.hpp"
+#include "service/log/log_forwarding.hpp"
 
 #include "db/store/database.hpp"
 #include "service/log/log_keys.hpp"
@@ -111,8 +111,7 @@ Result<LogIntake::Known> LogIntake::read(const ForwardedBatch& batch) const {
     known.head = {.size = checkpoint.size, .root = checkpoint.root};
     const auto before = static_cast<std::uint64_t>(batch.from - 1);
     if (before > known.head.size) return known;
-    const RowNames names = row_names(tables_, origins_);
-    LogReader reader(stores, names, origin->number);
+    LogReader reader(stores, row_names(tables_, origins_), origin->number);
     known.before = reader.frontier(before);
     const std::uint64_t end = before + batch.rows.size();
     if (end <= known.head.size) known.root_at_end = reader.frontier(end).root();
@@ -136,8 +135,7 @@ Result<void> LogIntake::read_base(const Stores& stores, const ForwardedBatch& ba
     }
   }
   const auto there = static_cast<std::uint64_t>(std::min(base->size, batch.base.size));
-  const RowNames names = row_names(tables_, origins_);
-  auto frontier = LogReader(stores, names, base->number).frontier(there);
+  auto frontier = LogReader(stores, row_names(tables_, origins_), base->number).frontier(there);
   known.head = {.size = there, .root = frontier.root()};
   if (there == static_cast<std::uint64_t>(batch.from - 1)) known.before = frontier;
   return {};
@@ -250,33 +248,21 @@ Result<void> LogIntake::check_rows(const ForwardedBatch& batch) const {
   return {};
 }
 
-/// Numbers the folder and the table revisions in a commit before the rows, so that every reader of
+/// Numbers the table revisions, and the folder in a commit before the rows, so that every reader of
 /// a row knows their names.
 Result<void> LogIntake::prepare(const ForwardedBatch& batch, Known& known) {
   std::set<std::string_view> revisions;
-  for (const ForwardedBatch::Row& row : batch.rows) {
-    const std::string_view id = row.measurement.table_revision;
-    if (!id.empty() && !tables_.revision_number(id)) revisions.insert(id);
-  }
-  if (known.number != 0 && revisions.empty()) return {};
-  const bool is_new = known.number == 0;
-  std::vector<std::pair<std::int64_t, std::string_view>> numbers;
-  TRY(database_.writer().wait([&](Stores& stores) -> Result<bool> {
-    numbers.clear();
-    for (const std::string_view id : revisions) {
-      numbers.emplace_back(-stores.origins.add_revision(id), id);
+  for (const auto& row : batch.rows) revisions.insert(row.measurement.table_revision);
+  TRY(tables_.number_revisions(std::move(revisions)));
+  if (known.number != 0) return {};
+  TRY(database_.writer().wait([&](Stores& stores) {
+    const auto found = stores.origins.find(batch.origin);
+    known.number = found ? found->number : stores.origins.add(batch.origin);
+    if (!found && known.base) {
+      stores.origins.set_base(known.number, *known.base);
+      stores.origins.set_head({.number = known.number, .size = known.base->size});
     }
-    if (is_new) {
-      const auto found = stores.origins.find(batch.origin);
-      known.number = found ? found->number : stores.origins.add(batch.origin);
-      if (!found && known.base) {
-        stores.origins.set_base(known.number, *known.base);
-        stores.origins.set_head({.number = known.number, .size = known.base->size});
-      }
-    }
-    return true;
   }));
-  for (const auto& [number, id] : numbers) tables_.remember(number, id);
   origins_.remember(known.number, batch.origin);
   return {};
 }
@@ -375,7 +361,7 @@ void LogIntake::tell_branch(const ForwardedBatch& batch, const Known& known) con
 
 /// Keeps the signed proof that there are two histories of one log.
 void LogIntake::fork(const ForwardedBatch& batch, const Known& known) {
-  const auto is_new = database_.writer().wait([&](Stores& stores) -> Result<bool> {
+  const auto is_new = database_.writer().wait([&](Stores& stores) {
     return stores.origins.add_fork(known.number, batch.checkpoint, clock_.now().nanoseconds);
   });
   if (!is_new || !*is_new) return;

@@ -1,4 +1,4 @@
-#include "service/log/log_outbox.hpp"
+#include "service/log/log_forwarding.hpp"
 
 #include "db/store/database.hpp"
 #include "record/note.hpp"
@@ -18,7 +18,7 @@ constexpr std::int64_t kNotesABatch = 500;
 
 Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most,
                                          std::optional<std::int64_t> noted) const {
-  return database_.readers().wait([&](const Stores& stores) -> Result<Batch> {
+  return database_.readers().wait([&](const Stores& stores) {
     const RowNames names = row_names(tables_, log_.origins());
     std::vector<store::Note> notes;
     if (noted) notes = stores.notes.own_after(*noted, kNotesABatch);
@@ -107,54 +107,49 @@ bool LogOutbox::is_note_of(std::string_view history, std::int64_t number) const 
 
 Result<std::optional<bool>> LogOutbox::begins_with(std::int64_t size,
                                                    const tlog::Hash& root) const {
-  return database_.readers().wait([&](const Stores& stores) -> Result<std::optional<bool>> {
+  return database_.readers().wait([&](const Stores& stores) {
     if (size > stores.log.state().size) return std::optional<bool>();
-    const RowNames names = row_names(tables_, log_.origins());
-    LogReader reader(stores, names);
-    return std::optional(reader.frontier(static_cast<std::uint64_t>(size)).root() == root);
+    const auto count = static_cast<std::uint64_t>(size);
+    return std::optional(log_.reader(stores).frontier(count).root() == root);
   });
 }
 
 Result<std::int64_t> LogOutbox::confirmed(std::string_view centre) const {
-  return database_.readers().wait([&](const Stores& stores) -> Result<std::int64_t> {
+  return database_.readers().wait([&](const Stores& stores) {
     const auto forwarded = stores.origins.forwarded();
     return forwarded && forwarded->centre == centre ? forwarded->size : 0;
   });
 }
 
 Result<void> LogOutbox::confirm(std::string_view centre, std::int64_t size) const {
-  return database_.writer().wait([&](Stores& stores) -> Result<void> {
+  return database_.writer().wait([&](Stores& stores) {
     stores.origins.set_forwarded({.centre = std::string(centre), .size = size});
-    return {};
   });
 }
 
 std::string_view LogOutbox::newest_history() const {
-  const auto rows = database_.readers().wait(
-      [](const Stores& stores) -> Result<std::int64_t> { return stores.measurements.log_size(); });
+  const auto rows =
+      database_.readers().wait([](const Stores& stores) { return stores.measurements.log_size(); });
   return log_.history_of(rows ? *rows : std::numeric_limits<std::int64_t>::max()).digits;
 }
 
 void LogOutbox::meet(std::string_view centre) const {
+  constexpr auto kCentre = store::LogStore::Mark::Centre;
   const auto known =
-      database_.readers().wait([](const Stores& stores) -> Result<std::optional<std::string>> {
-        return stores.log.mark(store::LogStore::Mark::Centre);
-      });
+      database_.readers().wait([](const Stores& stores) { return stores.log.mark(kCentre); });
   if (!known || *known == centre) return;
-  static_cast<void>(database_.writer().wait([centre](Stores& stores) -> Result<bool> {
-    stores.log.set_mark(store::LogStore::Mark::Centre, std::string(centre));
-    return true;
-  }));
+  static_cast<void>(database_.writer().wait(
+      [centre](Stores& stores) { stores.log.set_mark(kCentre, std::string(centre)); }));
 }
 
 void LogOutbox::set_forked(const std::optional<std::string>& why) const {
   static_cast<void>(log_.set_forked(why));  // the next call repeats a failed store
 }
 
-std::int64_t LogOutbox::committed() const { return database_.writer_counters().own_rows; }
+std::int64_t LogOutbox::committed() const { return database_.writer().counters().own_rows; }
 
 Result<LogOutbox::Waiting> LogOutbox::waiting(std::int64_t confirmed) const {
-  return database_.readers().wait([&](const Stores& stores) -> Result<Waiting> {
+  return database_.readers().wait([&](const Stores& stores) {
     Waiting waiting{.rows = std::max<std::int64_t>(0, stores.measurements.log_size() - confirmed)};
     stores.measurements.list_log(0, confirmed, 1, [&](const MeasurementRow& row) {
       waiting.oldest = Timestamp{row.received_at_ns};

@@ -55,10 +55,7 @@ Result<LogService::Proof> LogService::read_proof(const Stores& stores, const Rec
                              [&](const MeasurementRow& found) { place = found.place_in_log(); });
   }
   if (place == 0) {
-    return Error{
-        ErrorCode::MeasurementUnknown,
-        fmt::format("measurement not found: '{}'",
-                    measurement_id_text(name.number, origins_.digits(name.origin, name.number)))};
+    return unknown_measurement(name, origins_);
   }
   proof.index = static_cast<std::uint64_t>(place - 1);
   if (name.origin != 0) {
@@ -72,11 +69,10 @@ Result<LogService::Proof> LogService::read_proof(const Stores& stores, const Rec
   }
   const std::uint64_t size = proof.head->checkpoint.size;
   if (proof.index >= size) return proof;
-  const RowNames names = row_names(tables_, origins_);
-  LogReader reader(stores, names, name.origin);
-  proof.leaf = reader.node({.level = 0, .index = proof.index});
+  LogReader log = reader(stores, name.origin);
+  proof.leaf = log.node({.level = 0, .index = proof.index});
   proof.path = tlog::inclusion_proof(proof.index, size,
-                                     [&](const tlog::Node& node) { return reader.node(node); });
+                                     [&](const tlog::Node& node) { return log.node(node); });
   return proof;
 }
 
@@ -128,9 +124,7 @@ void LogService::tile(std::string_view path, bool of_changes, Done<TileBytes> do
             !tlog::has_tile(static_cast<std::uint64_t>(stores.changes.size()), tile)) {
           return unknown_tile(path);
         }
-        const RowNames names = row_names(tables_, origins_);
-        const std::int64_t of = of_changes ? LogReader::kChanges : 0;
-        return TileBytes{.bytes = LogReader(stores, names, of).tile(tile),
+        return TileBytes{.bytes = reader(stores, of_changes ? LogReader::kChanges : 0).tile(tile),
                          .is_full = tile.width == tlog::kTileWidth};
       },
       std::move(done));
@@ -183,13 +177,11 @@ void LogService::changes_head(Done<std::string> done) {
         const auto size = static_cast<std::uint64_t>(stores.changes.size());
         // A job that sees fewer changes than another job uses the other's head.
         if (changes_head_ && changes_head_->checkpoint.size >= size) return changes_head_->note;
-        const RowNames names = row_names(tables_, origins_);
-        LogReader reader(stores, names, LogReader::kChanges);
         const tlog::SigningKey named = signer_->named(kTreeOfChanges.name(name_));
         const tlog::SigningKey* const key = &named;
         Head head{.checkpoint = {.origin = named.verifier().name(),
                                  .size = size,
-                                 .root = reader.frontier(size).root()},
+                                 .root = reader(stores, LogReader::kChanges).frontier(size).root()},
                   .note = {}};
         head.note = tlog::sign_note(head.checkpoint.text(), {&key, 1});
         static_cast<void>(keep(kTreeOfChanges, head.note));

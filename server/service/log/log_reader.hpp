@@ -14,8 +14,8 @@ class LogReader {
   static constexpr std::int64_t kChanges = std::numeric_limits<std::int64_t>::max();
 
   /// @param origin 0: this folder.
-  LogReader(const Stores& stores, const RowNames& names, std::int64_t origin = 0)
-      : stores_(stores), names_(names), origin_(origin) {
+  LogReader(const Stores& stores, RowNames names, std::int64_t origin = 0)
+      : stores_(stores), names_(std::move(names)), origin_(origin) {
     if (origin > 0 && origin != kChanges) base_ = stores.origins.base(origin);
   }
 
@@ -40,7 +40,7 @@ class LogReader {
   std::vector<tlog::Hash> hashes(unsigned tile_level, std::uint64_t first, std::uint64_t count);
 
   const Stores& stores_;
-  const RowNames& names_;
+  const RowNames names_;
   const std::int64_t origin_;
   std::optional<store::OriginsStore::Base> base_{};  ///< a branch begins with rows of another log
   tlog::TreeHasher hasher_;

@@ -36,13 +36,15 @@ Result<std::unique_ptr<LogService>> LogService::open(Database& database, const T
   return log;
 }
 
+LogReader LogService::reader(const Stores& stores, std::int64_t origin) const {
+  return {stores, row_names(tables_, origins_), origin};
+}
+
 Result<void> LogService::set_forked(const std::optional<std::string>& why) {
   if (why.has_value() == forked().has_value()) return {};
   forked_.set(std::make_shared<const std::string>(why.value_or("")));
-  TRY(database_.writer().wait([&](Stores& stores) -> Result<bool> {
-    stores.log.set_mark(store::LogStore::Mark::Forked, why);
-    return true;
-  }));
+  TRY(database_.writer().wait(
+      [&](Stores& stores) { stores.log.set_mark(store::LogStore::Mark::Forked, why); }));
   if (why) tell("log_forked", *why);
   return {};
 }
@@ -69,8 +71,6 @@ void LogService::start() {
   thread_ = Thread("the log", [this](const std::stop_token& stop) { run(stop); });
 }
 
-void LogService::stop() { thread_.stop(); }
-
 void LogService::committed() {
   const std::lock_guard lock(mutex_);
   if (std::exchange(dirty_, true)) return;
@@ -88,8 +88,6 @@ void LogService::take_names(const Stores& stores) {
   for (const std::string& key : stores.log.keys()) lines += key + "\n";
   verifier_keys_.set(std::make_shared<const std::string>(std::move(lines)));
 }
-
-std::string LogService::verifier_keys() const { return *verifier_keys_.get(); }
 
 /// @pre mutex_ is held.
 LogService::Steady::time_point LogService::next_wake() const {
@@ -129,8 +127,7 @@ void LogService::run(const std::stop_token& stop) {
   }
   guarded("the log's end", [this] {
     // After the jobs that wait for the writer, which committed() does not report.
-    const auto nothing = [](Stores&) -> Result<bool> { return true; };
-    if (!database_.writer().wait(nothing)) return;
+    if (!database_.writer().wait([](Stores&) {})) return;
     const auto end = Steady::now() + kLastGrowth;
     static_cast<void>(grow([end] { return Steady::now() >= end; }));
   });
@@ -153,9 +150,8 @@ Result<void> LogService::grow(const IsOver& is_over) {
     Stretch stretch{.grown = frontier_};
     TRY(take_leaves(is_over, stretch));
     if (stretch.grown.size() == frontier_.size()) break;
-    TRY(database_.writer().wait([&](Stores& stores) -> Result<bool> {
+    TRY(database_.writer().wait([&](Stores& stores) {
       stores.log.grow(static_cast<std::int64_t>(stretch.grown.size()), stretch.nodes);
-      return true;
     }));
     frontier_ = std::move(stretch.grown);
     more = stretch.more;
@@ -173,10 +169,7 @@ Result<void> LogService::take_leaves(const IsOver& is_over, Stretch& stretch) {
   while (stretch.more && grown.size() < end && !is_over()) {
     const auto size = static_cast<std::int64_t>(grown.size());
     const auto leaves = TRY(database_.readers().wait(
-        [this, size](const Stores& stores) -> Result<std::vector<tlog::Hash>> {
-          const RowNames names = row_names(tables_, origins_);
-          return LogReader(stores, names).leaves(size, kLeavesAtATime);
-        }));
+        [&](const Stores& stores) { return reader(stores).leaves(size, kLeavesAtATime); }));
     for (const tlog::Hash& leaf : leaves) {
       const unsigned completed = grown.append(leaf);
       for (unsigned level = tlog::kTileHeight; level < completed; level += tlog::kTileHeight) {
@@ -230,10 +223,8 @@ std::string LogService::head_text() const {
 
 std::string LogService::sign_at(const Stores& stores, const History& history,
                                 std::uint64_t size) const {
-  const RowNames names = row_names(tables_, origins_);
-  LogReader reader(stores, names);
   const tlog::Checkpoint checkpoint{
-      .origin = history.name, .size = size, .root = reader.frontier(size).root()};
+      .origin = history.name, .size = size, .root = reader(stores).frontier(size).root()};
   const tlog::SigningKey* const key = &*history.signer;
   return tlog::sign_note(checkpoint.text(), {&key, 1});
 }
@@ -259,7 +250,7 @@ std::vector<std::string> LogService::hand_overs() const {
 }
 
 Result<LogService::Logs> LogService::logs(Database& database) {
-  return database.readers().wait([](const Stores& stores) -> Result<Logs> {
+  return database.readers().wait([](const Stores& stores) {
     const store::LogStore::State state = stores.log.state();
     Logs logs;
     logs[0] = {.name = state.name.value_or(""),

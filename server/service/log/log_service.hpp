@@ -11,6 +11,7 @@
 
 namespace fitgauge::app {
 
+class LogReader;
 struct TreeNames;
 
 /// The state of a history at the centre.
@@ -54,7 +55,7 @@ class LogService {
   void start();
   /// Signs once more before it returns, so that the folder knows the last stored row: an older copy
   /// then cannot use its ids again.
-  void stop();
+  void stop() { thread_.stop(); }
   /// There may be new measurements. Called after each commit; does not block.
   void committed();
 
@@ -62,6 +63,8 @@ class LogService {
     tlog::Checkpoint checkpoint;
     std::string note;  ///< the checkpoint, signed
   };
+  /// A reader of the log of this folder or, by its number, of an origin. Used inside a job.
+  LogReader reader(const Stores& stores, std::int64_t origin = 0) const;
   /// @pre not attached.
   std::shared_ptr<const Head> head() const { return head_.get(); }
   std::string head_text() const;  ///< for people
@@ -90,7 +93,7 @@ class LogService {
   void take_names(const Stores& stores);
 
   /// The public keys, one a line, the newest first.
-  std::string verifier_keys() const;
+  std::string verifier_keys() const { return *verifier_keys_.get(); }
 
   template <class T>
   using Done = std::function<void(Result<T>)>;

@@ -82,7 +82,7 @@ struct LogService::Loaded {
 };
 
 Result<LogService::Loaded> LogService::read() const {
-  return database_.readers().wait([](const Stores& stores) -> Result<Loaded> {
+  return database_.readers().wait([](const Stores& stores) {
     return Loaded{.state = stores.log.state(),
                   .branches = stores.log.branches(),
                   .keys = stores.log.keys(),
@@ -123,10 +123,9 @@ Result<void> LogService::keep_place() const {
       return Result<bool>(forked(
           fmt::format("the database was at {}, and is at {}: restart this service", *kept, place)));
     }
-    const RowNames names = row_names(tables_, origins_);
     tlog::Frontier own = frontier_;
     const bool is_behind = stores.log.state().size < static_cast<std::int64_t>(own.size());
-    if (is_behind || LogReader(stores, names).frontier(own.size()).root() != own.root()) {
+    if (is_behind || reader(stores).frontier(own.size()).root() != own.root()) {
       return Result<bool>(
           forked(fmt::format("the database does not have the {} measurements that this service "
                              "signed: restart this service",
@@ -135,10 +134,8 @@ Result<void> LogService::keep_place() const {
     return Result<bool>(kept == place);
   }));
   if (is_kept) return {};
-  return database_.writer().wait([](Stores& stores) -> Result<void> {
-    stores.log.set_mark(Mark::Place, stores.log.place());
-    return {};
-  });
+  return database_.writer().wait(
+      [](Stores& stores) { stores.log.set_mark(Mark::Place, stores.log.place()); });
 }
 
 Result<void> LogService::load() {
@@ -164,12 +161,9 @@ Result<void> LogService::load() {
   origins_.remember(0, digits_of_origin(loaded->state.origin));
   for (const auto& origin : loaded->origins) origins_.remember(origin.number, origin.digits);
   if (options_.attach) return {};
-  const auto frontier =
-      TRY(database_.readers().wait([&](const Stores& stores) -> Result<tlog::Frontier> {
-        const RowNames names = row_names(tables_, origins_);
-        return LogReader(stores, names).frontier(static_cast<std::uint64_t>(loaded->state.size));
-      }));
-  frontier_ = frontier;
+  frontier_ = TRY(database_.readers().wait([&](const Stores& stores) {
+    return reader(stores).frontier(static_cast<std::uint64_t>(loaded->state.size));
+  }));
   name_ = loaded->state.name.value_or(name_of(options_.name, origin()));
   histories_.push_back({.digits = std::string(origin()), .name = name_, .begin = begin});
   if (is_renamed(name_, options_)) {
@@ -229,10 +223,9 @@ Result<void> LogService::load_keys(const std::vector<std::string>& known) {
   for (const std::string& key : all) lines += key + "\n";
   verifier_keys_.set(std::make_shared<const std::string>(std::move(lines)));
   if (!is_new) return {};
-  return database_.writer().wait([&](Stores& stores) -> Result<void> {
+  return database_.writer().wait([&](Stores& stores) {
     stores.log.set_name(name_);
     stores.log.add_key(newest, clock_.now().nanoseconds);
-    return {};
   });
 }
 
@@ -256,14 +249,13 @@ void LogService::set_aside(std::string_view name, std::string_view why) {
 /// The root of the first leaves. Those after the stored tree are appended: it may be shorter after
 /// a power failure.
 Result<tlog::Hash> LogService::root_of(const TreeNames& tree, std::uint64_t size) const {
-  return database_.readers().wait([&](const Stores& stores) -> Result<tlog::Hash> {
-    const RowNames names = row_names(tables_, origins_);
+  return database_.readers().wait([&](const Stores& stores) {
     const bool is_stored = tree.file == kCheckpointFile;
-    LogReader reader(stores, names, is_stored ? 0 : LogReader::kChanges);
+    LogReader log = reader(stores, is_stored ? 0 : LogReader::kChanges);
     const auto stored = static_cast<std::uint64_t>(stores.log.state().size);
-    tlog::Frontier frontier = reader.frontier(is_stored ? std::min(size, stored) : size);
+    tlog::Frontier frontier = log.frontier(is_stored ? std::min(size, stored) : size);
     const auto begin = static_cast<std::int64_t>(frontier.size());
-    for (const tlog::Hash& leaf : reader.leaves(begin, static_cast<std::int64_t>(size) - begin)) {
+    for (const tlog::Hash& leaf : log.leaves(begin, static_cast<std::int64_t>(size) - begin)) {
       frontier.append(leaf);
     }
     return frontier.root();
@@ -342,7 +334,7 @@ std::optional<std::string> LogService::why_to_branch(Loaded& loaded) {
                        there->rows, loaded.rows);
   }
   if (there->is_branched) return "the centre has a branch of this log, which the database lacks";
-  const auto has_note = database_.readers().wait([&](const Stores& stores) -> Result<bool> {
+  const auto has_note = database_.readers().wait([&](const Stores& stores) {
     return there->note == 0 || !stores.notes.own_after(there->note - 1, 1).empty();
   });
   if (has_note && !*has_note) return "the centre has notes of this log that the database lacks";
@@ -358,7 +350,7 @@ Result<void> LogService::branch(const Loaded& loaded, const std::string& why) {
   const std::string& before = *loaded.state.name;
   const std::string name = name_of(loaded.takes_name(options_) ? options_.name : middle_of(before),
                                    digits_of_origin(origin));
-  const auto begun = TRY(database_.writer().wait([&](Stores& stores) -> Result<bool> {
+  const auto begun = TRY(database_.writer().wait([&](Stores& stores) {
     // Another daemon may have been first.
     const auto state = stores.log.state();
     if (state.origin != loaded.state.origin) return false;

@@ -64,10 +64,10 @@ GaugeBook book_of(const Documents& gauges, const Documents& calibrations, const 
   for (const app::NamedDocument& document : past) {
     const auto found = book.find(document.name);
     GaugeInUse& gauge = found != book.end() ? found->second : deleted[document.name];
-    if (found == book.end()) gauge.deleted_at = document.modified_at;
+    if (found == book.end()) gauge.deleted_at = Timestamp{document.modified_at_ns};
     GaugePeriod& now = gauge.periods.back();
     GaugePeriod before = now;
-    now.from = document.modified_at;
+    now.from = {document.modified_at_ns};
     if (take_gauge(before, document.text, combined)) {
       gauge.periods.insert(gauge.periods.end() - 1, std::move(before));
     }

@@ -173,7 +173,7 @@ SharedRuns::Followed SharedRuns::followed() {
 }
 
 void SharedRuns::look(const Followed& followed, bool runs_any) {
-  const auto seen = database_.readers().wait([&](const Stores& stores) -> Result<Seen> {
+  const auto seen = database_.readers().wait([&](const Stores& stores) {
     Seen found;
     if (runs_any) found.to_be_cancelled = stores.runs.to_be_cancelled();
     for (const auto& [id, run] : followed) {

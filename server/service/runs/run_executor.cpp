@@ -1,4 +1,4 @@
-#include "service/runs/run_executor.hpp"
+#include "service/runs/active_run.hpp"
 
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/program/program_cache.hpp"

@@ -5,9 +5,9 @@
 #include "record/origins.hpp"
 #include "service/files/file_service.hpp"
 #include "service/measurements/measurement_service.hpp"
+#include "service/runs/active_run.hpp"
 #include "service/runs/control_files.hpp"
 #include "service/runs/control_tables.hpp"
-#include "service/runs/run_executor.hpp"
 #include "service/runs/stored_run.hpp"
 
 namespace fitgauge::app {

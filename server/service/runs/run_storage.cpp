@@ -27,10 +27,8 @@ Error too_late(const std::string& id) {
 
 Result<void> RunService::close_interrupted() {
   while (true) {
-    const auto runs =
-        TRY(database_.readers().wait([](const Stores& stores) -> Result<std::vector<store::Run>> {
-          return stores.runs.abandoned(kPage);
-        }));
+    const auto runs = TRY(database_.readers().wait(
+        [](const Stores& stores) { return stores.runs.abandoned(kPage); }));
     if (runs.empty()) return {};
     for (const store::Run& run : runs) {
       const auto kept =
@@ -50,9 +48,7 @@ void RunService::look_for_abandoned(const std::stop_token& stop) {
   std::set<std::int64_t> seen;
   while (wait_unless_stopped(stop, kBetween)) {
     const auto runs =
-        database_.readers().wait([](const Stores& stores) -> Result<std::vector<store::Run>> {
-          return stores.runs.abandoned(kPage);
-        });
+        database_.readers().wait([](const Stores& stores) { return stores.runs.abandoned(kPage); });
     if (!runs) continue;
     std::set<std::int64_t> still;
     for (const store::Run& run : *runs) {
@@ -78,8 +74,8 @@ Result<void> RunService::take_over(const store::Run& run) {
       order = loaded.error();
     }
   }
-  const auto taken = TRY(database_.writer().wait(
-      [id = run.id](Stores& stores) -> Result<bool> { return stores.runs.take_over(id); }));
+  const auto taken = TRY(
+      database_.writer().wait([id = run.id](Stores& stores) { return stores.runs.take_over(id); }));
   if (!taken) return {};
   if (order) {
     static_cast<void>(queue(std::make_shared<ActiveRun>(
@@ -252,7 +248,7 @@ void RunService::list(RunQuery query, std::optional<std::int64_t> after, std::si
   store::RunFilter filter{.program = std::move(query.program)};
   if (query.state) filter.status = run_status(*query.state);
   database_.readers().submit(
-      [this, filter = std::move(filter), after, limit](const Stores& stores) -> Result<Page> {
+      [this, filter = std::move(filter), after, limit](const Stores& stores) {
         store::RunsStore::Page found = stores.runs.list(filter, after, limit);
         Page page{.runs = {}, .next = found.next};
         for (store::Run& run : found.runs) {

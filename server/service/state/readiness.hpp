@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/result.hpp"
-#include "service/storage.hpp"
 
 namespace fitgauge::app {
 
@@ -10,11 +9,5 @@ struct Readiness {
   std::vector<Error> findings;  ///< empty: ready
   std::string database;         ///< `ok`, or `checking` while a large file is still being read
 };
-
-Readiness readiness(const Database& database, const TableCatalog& tables, const LogService& log);
-
-/// Whether a daemon could start on the database at `address` (`postgresql://…`); changes nothing.
-/// @errors StorageUnavailable, DatabaseNewer, DatabaseForeign, each naming the server's reason.
-Result<void> check_database(const std::string& address);
 
 }  // namespace fitgauge::app

@@ -5,7 +5,7 @@
 #include "service/documents/document_service.hpp"
 #include "service/log/changes.hpp"
 #include "service/measurements/mapping.hpp"
-#include "service/revisions/revision_feed.hpp"
+#include "service/revisions/revisions.hpp"
 #include "service/tables/custom_column.hpp"
 #include "tables/standards/standard.hpp"
 
@@ -74,10 +74,10 @@ std::string change_text(const TableCatalog::ColumnName& column, std::string_view
                      word(column.feature), column.name, revision);
 }
 
-auto find_column(std::vector<iso286::CustomColumn>& columns, iso286::Feature feature,
-                 std::string_view name) {
-  return std::ranges::find_if(columns, [&](const iso286::CustomColumn& column) {
-    return column.feature == feature && column.name == name;
+auto find_column(std::vector<iso286::CustomColumn>& columns,
+                 const TableCatalog::ColumnName& column) {
+  return std::ranges::find_if(columns, [&](const iso286::CustomColumn& each) {
+    return each.feature == column.feature && each.name == column.name;
   });
 }
 
@@ -85,7 +85,7 @@ auto find_column(std::vector<iso286::CustomColumn>& columns, iso286::Feature fea
 /// not exist.
 std::optional<std::string> column_text(std::vector<iso286::CustomColumn>& columns,
                                        const TableCatalog::ColumnName& column) {
-  const auto found = find_column(columns, column.feature, column.name);
+  const auto found = find_column(columns, column);
   if (found == columns.end()) return std::nullopt;
   return api::body_json(api::CustomRows{found->rows});
 }
@@ -97,15 +97,7 @@ Result<std::unique_ptr<TableCatalog>> TableCatalog::open(Database& database, con
   std::unique_ptr<TableCatalog> catalog(new TableCatalog(database, clock, has_centre));
   const auto loaded = TRY(database.writer().wait(
       [&clock](Stores& stores) { return load_or_import(stores, clock.now()); }));
-  TRY(database.readers().wait([&catalog](const Stores& stores) -> Result<bool> {
-    for (const auto& revision : stores.tables.list()) {
-      catalog->remember(revision.number, revision.id);
-    }
-    for (const auto& revision : stores.origins.revisions()) {
-      catalog->remember(-revision.number, revision.id);
-    }
-    return true;
-  }));
+  TRY(database.readers().wait([&catalog](const Stores& stores) { catalog->remember(stores); }));
   catalog->state_.set(std::make_shared<const TableState>(audit(loaded)));
   return catalog;
 }
@@ -138,49 +130,26 @@ void TableCatalog::put_column(iso286::CustomColumn column, Condition condition,
     return done(checked.error());
   }
   ColumnName name{column.feature, column.name};
-  change(
-      std::move(name),
-      [column = std::move(column)](std::vector<iso286::CustomColumn>& columns) -> Result<bool> {
-        const auto found = find_column(columns, column.feature, column.name);
-        const bool created = found == columns.end();
-        if (created) {
-          columns.push_back(column);
-        } else {
-          *found = column;
-        }
-        return created;
-      },
-      std::move(condition), std::move(caller), std::move(done));
+  change(std::move(name), std::move(column), std::move(condition), std::move(caller),
+         std::move(done));
 }
 
 void TableCatalog::remove_column(iso286::Feature feature, std::string name, Condition condition,
                                  std::optional<std::string> caller, Callback<ColumnStored> done) {
-  ColumnName removed{feature, name};
-  change(
-      std::move(removed),
-      [feature,
-       name = std::move(name)](std::vector<iso286::CustomColumn>& columns) -> Result<bool> {
-        const auto found = find_column(columns, feature, name);
-        if (found == columns.end()) {
-          return Error{
-              ErrorCode::ClassUnknown,
-              fmt::format("the {} table has no custom tolerance class {}", word(feature), name)};
-        }
-        columns.erase(found);
-        return false;
-      },
-      std::move(condition), std::move(caller), std::move(done));
+  change({feature, std::move(name)}, {}, std::move(condition), std::move(caller), std::move(done));
 }
 
-void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
-                          std::optional<std::string> caller, Callback<ColumnStored> done) {
+/// @param to none: removes the column
+void TableCatalog::change(ColumnName column, std::optional<iso286::CustomColumn> to,
+                          Condition condition, std::optional<std::string> caller,
+                          Callback<ColumnStored> done) {
   struct Changed {
     bool created = false;
     store::TableRevision revision;
     std::shared_ptr<const TableState> state;
   };
   database_.writer().submit(
-      [this, column = std::move(column), edit = std::move(edit), condition = std::move(condition),
+      [this, column = std::move(column), to = std::move(to), condition = std::move(condition),
        caller = std::move(caller)](Stores& stores) -> Result<Changed> {
         if (has_centre_ && stores.revisions.received(store::RevisionKind::Tables, "")) {
           return centre_decides("the tables with their custom tolerance classes");
@@ -194,7 +163,20 @@ void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
         const Error changed{ErrorCode::PreconditionFailed,
                             "the tables do not match If-Match or If-None-Match: read them again, "
                             "and repeat the change"};
-        const auto created = TRY(edit(data.custom_columns));
+        const auto found = find_column(data.custom_columns, column);
+        const bool exists = found != data.custom_columns.end();
+        if (!to && !exists) {
+          return Error{ErrorCode::ClassUnknown,
+                       fmt::format("the {} table has no custom tolerance class {}",
+                                   word(column.feature), column.name)};
+        }
+        if (!to) {
+          data.custom_columns.erase(found);
+        } else if (exists) {
+          *found = *to;
+        } else {
+          data.custom_columns.push_back(*to);
+        }
         auto after = column_text(data.custom_columns, column);
         if (after == before && !holds) return changed;
         if (after == before) return Changed{false, latest.revision, state_.get()};
@@ -228,7 +210,7 @@ void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
         }
         // RFC 9110, 13.2.1: this is the last refusal.
         if (!holds) return changed;
-        return Changed{created, std::move(loaded.revision), std::move(audited)};
+        return Changed{!exists, std::move(loaded.revision), std::move(audited)};
       },
       [this, done = std::move(done)](Result<Changed> changed) {
         if (!changed) return done(changed.error());
@@ -293,14 +275,20 @@ void TableCatalog::put_in_force(std::shared_ptr<const TableState> state) {
 }
 
 void TableCatalog::take(const Stores& stores) {
+  const std::int64_t newest = remember(stores);
+  if (newest <= state()->number) return;
+  put_in_force(std::make_shared<const TableState>(audit(stores.tables.load(newest).value())));
+}
+
+/// @returns the number of the newest of this folder
+std::int64_t TableCatalog::remember(const Stores& stores) {
   std::int64_t newest = 0;
   for (const auto& revision : stores.tables.list()) {
     remember(revision.number, revision.id);
     newest = revision.number;
   }
   for (const auto& revision : stores.origins.revisions()) remember(-revision.number, revision.id);
-  if (newest <= state()->number) return;
-  put_in_force(std::make_shared<const TableState>(audit(stores.tables.load(newest).value())));
+  return newest;
 }
 
 void TableCatalog::remember(std::int64_t number, std::string_view id) {
@@ -315,17 +303,23 @@ std::string_view TableCatalog::revision_id(std::int64_t number) const {
 }
 
 Result<void> TableCatalog::number_standards() {
-  std::vector<std::string_view> unknown;
+  std::set<std::string_view> revisions;
   for (const standards::Standard& standard : standards::all()) {
-    if (!standard.designation.empty() && !revision_number(standard.revision)) {
-      unknown.push_back(standard.revision);
-    }
+    if (!standard.designation.empty()) revisions.insert(standard.revision);
   }
-  if (unknown.empty()) return {};
-  return database_.writer().wait([&](Stores& stores) -> Result<void> {
-    for (const std::string_view id : unknown) remember(-stores.origins.add_revision(id), id);
-    return {};
-  });
+  return number_revisions(std::move(revisions));
+}
+
+Result<void> TableCatalog::number_revisions(std::set<std::string_view> ids) {
+  std::erase_if(ids, [this](std::string_view id) { return id.empty() || revision_number(id); });
+  if (ids.empty()) return {};
+  const auto numbers = TRY(database_.writer().wait([&](Stores& stores) {
+    std::map<std::int64_t, std::string_view> added;
+    for (const std::string_view id : ids) added.emplace(-stores.origins.add_revision(id), id);
+    return added;
+  }));
+  for (const auto& [number, id] : numbers) remember(number, id);
+  return {};
 }
 
 std::optional<std::int64_t> TableCatalog::revision_number(std::string_view id) const {

@@ -91,6 +91,10 @@ class TableCatalog {
   /// @errors StorageUnavailable.
   Result<void> number_standards();
 
+  /// Numbers revisions of others that have no number yet, in a commit before their rows, so that
+  /// every reader of a row knows their names. Empty ids are left out. Blocks.
+  /// @errors StorageUnavailable, StorageBusy.
+  Result<void> number_revisions(std::set<std::string_view> ids);
   /// The number of a revision that revision_id knows.
   std::optional<std::int64_t> revision_number(std::string_view id) const;
 
@@ -103,10 +107,10 @@ class TableCatalog {
       : database_(database), clock_(clock), has_centre_(has_centre) {}
 
   void put_in_force(std::shared_ptr<const TableState> state);
+  std::int64_t remember(const Stores& stores);
 
-  using Edit = std::function<Result<bool>(std::vector<iso286::CustomColumn>&)>;
-  void change(ColumnName column, Edit edit, Condition condition, std::optional<std::string> caller,
-              Callback<ColumnStored> done);
+  void change(ColumnName column, std::optional<iso286::CustomColumn> to, Condition condition,
+              std::optional<std::string> caller, Callback<ColumnStored> done);
 
   Database& database_;
   const Clock& clock_;

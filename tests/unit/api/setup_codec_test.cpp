@@ -149,7 +149,7 @@ TEST_CASE("what contradicts itself or names nothing is refused with its pointer"
 
 TEST_CASE("an order is read with its setup, by name or in place") {
   const auto find = [](const std::string& name) -> Result<app::NamedDocument> {
-    if (name == "mill") return app::NamedDocument{name, R"({"seed": 12})", {}};
+    if (name == "mill") return app::NamedDocument{.name = name, .text = R"({"seed": 12})"};
     return Error{ErrorCode::SetupUnknown, "there is no setup '" + name + "'"};
   };
   const auto read = [&](std::string_view text) {

@@ -6,8 +6,8 @@
 
 #include <fstream>
 
+#include "service/runs/active_run.hpp"
 #include "service/runs/control_files.hpp"
-#include "service/runs/run_executor.hpp"
 #include "tables/iso286/table_data.hpp"
 
 namespace fitgauge::app {

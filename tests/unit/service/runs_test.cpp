@@ -1,5 +1,5 @@
 #include "nc/program/program_cache.hpp"
-#include "service/runs/run_executor.hpp"
+#include "service/runs/active_run.hpp"
 #include "service_fixture.hpp"
 
 namespace fitgauge::app {

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "base/json/text_arena.hpp"
-#include "service/log/log_outbox.hpp"
+#include "service/log/log_forwarding.hpp"
+#include "service/revisions/revisions.hpp"
 
 namespace fitgauge::api {
 
@@ -17,5 +18,17 @@ std::string batch_text(const app::LogOutbox::Batch& batch);
 /// @errors LogRecordInvalid and those of JSON, each with the line; RequestInvalid.
 Result<std::unique_ptr<ReadBatch>> read_batch(std::string_view origin, std::int64_t from,
                                               std::string_view body);
+
+/// A page and the texts its measurements have views of.
+struct ReadRevisions {
+  app::RevisionPage page;
+  TextArena texts;
+};
+
+/// The answer of `GET /v1/log/revisions`.
+std::string revisions_text(const app::RevisionPage& page);
+/// Reads it. Unknown kinds are left out.
+/// @errors those of JSON; RequestInvalid, LogRecordInvalid.
+Result<std::unique_ptr<ReadRevisions>> read_revisions(std::string_view body);
 
 }  // namespace fitgauge::api

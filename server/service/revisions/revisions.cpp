@@ -1,7 +1,8 @@
-#include "service/revisions/revision_intake.hpp"
+#include "service/revisions/revisions.hpp"
 
 #include "db/store/database.hpp"
 #include "record/origins.hpp"
+#include "record/record.hpp"
 #include "service/log/changes.hpp"
 #include "service/log/leaf.hpp"
 #include "service/measurements/mapping.hpp"
@@ -9,6 +10,39 @@
 
 namespace fitgauge::app {
 namespace {
+
+constexpr std::int64_t kMostRevisions = 500;
+constexpr std::size_t kMostBytes = std::size_t{4} << 20;
+
+constexpr std::pair<RevisionKind, std::string_view> kKinds[] = {
+    {RevisionKind::Tables, "tables"},         {RevisionKind::Key, "key"},
+    {RevisionKind::Setup, "setup"},           {RevisionKind::Plan, "plan"},
+    {RevisionKind::Correction, "correction"}, {RevisionKind::Catalogue, "catalogue"}};
+
+void fill_tables(const Stores& stores, Revision& revision) {
+  const auto latest = stores.tables.load_latest();
+  if (!latest) return;
+  revision.id = latest->revision.id;
+  auto data = from_store({.cells = {}, .custom = latest->content.custom});
+  if (data) revision.columns = std::move(data->custom_columns);
+}
+
+void fill_key(const Stores& stores, Revision& revision) {
+  const auto key = stores.keys.newest(revision.name);
+  revision.is_removed = !key || key->revoked_at_ns.has_value();
+  if (!key) return;
+  revision.role = key->role;
+  revision.token_hash = key->token_hash;
+  if (key->expires_at_ns) revision.expires_at = Timestamp{*key->expires_at_ns};
+}
+
+void fill_document(const Stores& stores, Revision& revision) {
+  // A document and its revisions have the same codes.
+  auto document =
+      stores.documents.find(static_cast<store::DocumentKind>(revision.kind), revision.name);
+  revision.is_removed = !document;
+  if (document) revision.text = std::move(document->text);
+}
 
 /// Renames a document that this folder has made to a free name.
 std::string keep_own(Stores& stores, store::Document own, std::int64_t now_ns) {
@@ -23,6 +57,70 @@ std::string keep_own(Stores& stores, store::Document own, std::int64_t now_ns) {
 }
 
 }  // namespace
+
+std::string_view word(RevisionKind kind) {
+  return std::ranges::find(kKinds, kind, &std::pair<RevisionKind, std::string_view>::first)->second;
+}
+
+std::optional<RevisionKind> revision_kind_from_word(std::string_view text) {
+  for (const auto& [kind, name] : kKinds) {
+    if (text == name) return kind;
+  }
+  return std::nullopt;
+}
+
+void RevisionFeed::read(std::string_view station, std::string position, Done done) const {
+  database_.readers().submit([this, station = std::string(station), position = std::move(position)](
+                                 const Stores& stores) { return page(stores, station, position); },
+                             std::move(done));
+}
+
+Result<RevisionPage> RevisionFeed::page(const Stores& stores, std::string_view station,
+                                        std::string_view position) const {
+  const auto origin = stores.origins.find(station);
+  const auto listed = stores.revisions.list(stores.revisions.number_of(position).value_or(0),
+                                            origin ? origin->number : 0, kMostRevisions);
+  RevisionPage page{.position = stores.revisions.newest_position(),
+                    .more = false,
+                    .origin = std::string(origins_.own()),
+                    .size = origin ? origin->size : 0,
+                    .notes = origin ? stores.notes.newest_of(origin->number) : 0,
+                    .is_branched = origin && stores.origins.is_base(origin->number)};
+  std::size_t bytes = 0;
+  for (const auto& [number, kind, name] : listed) {
+    if (bytes > kMostBytes) {
+      page.more = true;
+      break;
+    }
+    Revision revision{.number = number, .kind = kind};
+    if (!fill(stores, name, revision)) continue;
+    bytes += revision.text.size();
+    page.revisions.push_back(std::move(revision));
+  }
+  page.more = page.more || listed.size() == static_cast<std::size_t>(kMostRevisions);
+  if (page.more) page.position = stores.revisions.position(page.revisions.back().number);
+  return page;
+}
+
+/// @returns false: it has nothing to send.
+bool RevisionFeed::fill(const Stores& stores, const std::string& name, Revision& revision) const {
+  if (revision.kind == RevisionKind::Correction) {
+    std::int64_t row = 0;
+    std::from_chars(name.data(), name.data() + name.size(), row);
+    const RowNames names = row_names(tables_, origins_);
+    return stores.measurements.find(row, [&](const MeasurementRow& found) {
+      append_record(revision.text, from_store(found, names));
+      revision.place = found.place_in_log();
+    });
+  }
+  revision.name = name;
+  switch (revision.kind) {
+    case RevisionKind::Tables: fill_tables(stores, revision); break;
+    case RevisionKind::Key: fill_key(stores, revision); break;
+    default: fill_document(stores, revision);
+  }
+  return true;
+}
 
 /// A page in its transaction.
 struct RevisionIntake::Job {
@@ -181,7 +279,7 @@ Result<RevisionIntake::Outcome> RevisionIntake::take(const RevisionPage& page) {
     std::optional<TableCatalog::Received> received;
     std::vector<std::pair<std::string_view, std::string>> told;
   };
-  auto taken = TRY(database_.writer().wait([&](Stores& stores) -> Result<Taken> {
+  auto taken = TRY(database_.writer().wait([&](Stores& stores) {
     Job job{.stores = stores,
             .tables = tables_,
             .origins = origins_,
@@ -195,36 +293,28 @@ Result<RevisionIntake::Outcome> RevisionIntake::take(const RevisionPage& page) {
   return taken.outcome;
 }
 
-/// Numbers the centre and the table revisions of its corrections in a commit before the rows, so
-/// that every reader of a row knows their names.
+/// Numbers the table revisions of the centre's corrections, and the centre in a commit before the
+/// rows, so that every reader of a row knows their names.
 Result<void> RevisionIntake::prepare(const RevisionPage& page) {
   std::set<std::string_view> revisions;
   std::set<std::string_view> centres;
   for (const Revision& revision : page.revisions) {
     if (!revision.measurement) continue;
-    if (!origins_.number(revision.measurement->origin, 0)) {
-      centres.insert(revision.measurement->origin);
-    }
-    const std::string_view id = revision.measurement->table_revision;
-    if (!id.empty() && !tables_.revision_number(id)) revisions.insert(id);
+    revisions.insert(revision.measurement->table_revision);
+    const std::string_view centre = revision.measurement->origin;
+    if (!origins_.number(centre, 0)) centres.insert(centre);
   }
-  if (centres.empty() && revisions.empty()) return {};
-  std::vector<std::pair<std::int64_t, std::string_view>> added;
-  std::vector<std::pair<std::int64_t, std::string_view>> numbers;
-  TRY(database_.writer().wait([&](Stores& stores) -> Result<bool> {
-    numbers.clear();
-    added.clear();
-    for (const std::string_view id : revisions) {
-      numbers.emplace_back(-stores.origins.add_revision(id), id);
-    }
+  TRY(tables_.number_revisions(std::move(revisions)));
+  if (centres.empty()) return {};
+  const auto numbers = TRY(database_.writer().wait([&](Stores& stores) {
+    std::map<std::int64_t, std::string_view> added;
     for (const std::string_view digits : centres) {
       const auto found = stores.origins.find(digits);
-      added.emplace_back(found ? found->number : stores.origins.add(digits), digits);
+      added.emplace(found ? found->number : stores.origins.add(digits), digits);
     }
-    return true;
+    return added;
   }));
-  for (const auto& [number, id] : numbers) tables_.remember(number, id);
-  for (const auto& [number, digits] : added) origins_.remember(number, digits);
+  for (const auto& [number, digits] : numbers) origins_.remember(number, digits);
   return {};
 }
 
