@@ -1,7 +1,5 @@
 #include "cli/address.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::cli {
 namespace {
 

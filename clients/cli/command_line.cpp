@@ -7,7 +7,6 @@
 #include <csignal>
 #include <cstdio>
 
-#include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/commands.hpp"
 #include "cli/local_files.hpp"

@@ -1,5 +1,4 @@
 #include "base/clock.hpp"
-#include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/local_files.hpp"
 #include "cli/registration.hpp"

@@ -1,6 +1,5 @@
 #include "cli/folder_disk.hpp"
 
-#include "base/text.hpp"
 #include "cli/local_files.hpp"
 #include "service/runs/control_files.hpp"
 

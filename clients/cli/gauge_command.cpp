@@ -9,7 +9,6 @@
 #include "base/clock.hpp"
 #include "base/folder.hpp"
 #include "base/length.hpp"
-#include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/registration.hpp"
 #include "record/measurement_row_reader.hpp"

@@ -3,8 +3,6 @@
 #include <iostream>
 #include <regex>
 
-#include "base/number.hpp"
-#include "base/text.hpp"
 #include "cli/open_programs.hpp"
 #include "cli/program_help.hpp"
 #include "cli/program_remedies.hpp"

@@ -78,22 +78,15 @@ int open_directly(const fs::path& path) {
 }  // namespace
 
 Outcome<InputFile> InputFile::open(const std::string& path) {
-  if (path == "-") return InputFile("standard input", STDIN_FILENO);
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return failed(path, "open it");
-  return InputFile(path, descriptor);
-}
-
-InputFile::InputFile(InputFile&& other) noexcept
-    : name_(std::move(other.name_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-InputFile::~InputFile() {
-  if (descriptor_ > STDIN_FILENO) close(descriptor_);
+  if (path == "-") return InputFile("standard input", dup(STDIN_FILENO));
+  InputFile input(path, ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!input.file_.is_open()) return failed(path, "open it");
+  return input;
 }
 
 Outcome<std::size_t> InputFile::read(std::span<char> into) {
   for (;;) {
-    const ssize_t count = ::read(descriptor_, into.data(), into.size());
+    const ssize_t count = ::read(file_.get(), into.data(), into.size());
     if (count >= 0) return static_cast<std::size_t>(count);
     if (errno != EINTR) return failed(name_, "read it");
   }
@@ -101,12 +94,12 @@ Outcome<std::size_t> InputFile::read(std::span<char> into) {
 
 std::optional<std::uint64_t> InputFile::size() const {
   struct stat facts {};
-  if (fstat(descriptor_, &facts) != 0 || !S_ISREG(facts.st_mode)) return std::nullopt;
+  if (fstat(file_.get(), &facts) != 0 || !S_ISREG(facts.st_mode)) return std::nullopt;
   return static_cast<std::uint64_t>(facts.st_size);
 }
 
 Outcome<void> InputFile::rewind() {
-  if (lseek(descriptor_, 0, SEEK_SET) < 0) return failed(name_, "read it again");
+  if (lseek(file_.get(), 0, SEEK_SET) < 0) return failed(name_, "read it again");
   return {};
 }
 
@@ -115,13 +108,13 @@ Outcome<InputFile> open_to_read_again(const std::string& path) {
   if (!input || input->size()) return input;
   std::string folder = std::filesystem::temp_directory_path().string();
   InputFile kept(input->name_, ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
-  if (kept.descriptor_ < 0) return failed(folder, "store the input there");
+  if (!kept.file_.is_open()) return failed(folder, "store the input there");
   std::string piece(kReadSize, '\0');
   for (;;) {
     const auto count = TRY(input->read(piece));
     if (count == 0) break;
     for (std::string_view rest(piece.data(), count); !rest.empty();) {
-      const ssize_t written = ::write(kept.descriptor_, rest.data(), rest.size());
+      const ssize_t written = ::write(kept.file_.get(), rest.data(), rest.size());
       if (written < 0 && errno != EINTR) return failed(folder, "store the input there");
       rest.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
     }

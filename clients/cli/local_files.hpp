@@ -2,19 +2,16 @@
 
 #include <cstdio>
 
+#include "base/folder.hpp"
 #include "cli/outcome.hpp"
 
 namespace fitgauge::cli {
 
-/// An open file or standard input, read once from its begin. The destructor closes it.
+/// An open file or standard input, read once from its begin.
 class InputFile {
  public:
   /// @param path `-` is standard input. @errors LocalFile
   static Outcome<InputFile> open(const std::string& path);
-
-  InputFile(InputFile&& other) noexcept;
-  InputFile& operator=(InputFile&&) = delete;
-  ~InputFile();
 
   /// 0 at the end. @errors LocalFile
   Outcome<std::size_t> read(std::span<char> into);
@@ -28,10 +25,10 @@ class InputFile {
  private:
   friend Outcome<InputFile> open_to_read_again(const std::string& path);
 
-  InputFile(std::string name, int descriptor) : name_(std::move(name)), descriptor_(descriptor) {}
+  InputFile(std::string name, int opened) : name_(std::move(name)), file_(opened) {}
 
   std::string name_;
-  int descriptor_;
+  Descriptor file_;
 };
 
 /// Opens a file, or copies a pipe to a file without a name, to read it more than once.

@@ -2,7 +2,6 @@
 
 #include <future>
 
-#include "base/number.hpp"
 #include "cli/local_files.hpp"
 #include "cli/registration.hpp"
 #include "cli/row_input.hpp"
@@ -16,15 +15,6 @@ using Clock = std::chrono::steady_clock;
 
 std::uint64_t number_of(std::string_view digits) {
   return read_number<std::uint64_t>(digits).value_or(0);
-}
-
-VerdictCounts counts_of(const JsonValue& accepted) {
-  const JsonValue& verdicts = accepted.member("verdicts");
-  return {.good = number_of(verdicts.text_of("good")),
-          .rework = number_of(verdicts.text_of("rework")),
-          .reject = number_of(verdicts.text_of("reject")),
-          .indeterminate = number_of(verdicts.text_of("indeterminate")),
-          .unjudged = number_of(verdicts.text_of("unjudged"))};
 }
 
 std::string summary(const VerdictCounts& counts) {
@@ -179,7 +169,8 @@ class Upload {
     if (!answer) return interrupted(answer.error());
     if (!answer->ok()) return refused(chunks, chunk, *answer);
     const auto document = TRY(context_.document_of(*answer));
-    const VerdictCounts counts = counts_of(document);
+    VerdictCounts counts;
+    read_known(document.member("verdicts"), counts);
     state_.counts += counts;
     state_.stored = chunk.end;
     state_.pending.reset();

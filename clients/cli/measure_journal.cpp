@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "base/digest.hpp"
-#include "base/number.hpp"
 #include "cli/json_object.hpp"
 #include "cli/local_files.hpp"
 #include "cli/terminal.hpp"
@@ -19,26 +18,13 @@ namespace {
 constexpr int kPrivate = 0600;
 constexpr std::size_t kKeyDigits = 32;
 
-bool read_count(const JsonValue& object, std::string_view name, std::uint64_t& out) {
-  const auto read = read_number<std::uint64_t>(object.text_of(name));
-  out = read.value_or(out);
-  return read.has_value();
-}
-
-std::optional<CsvPosition> read_position(const JsonValue& object) {
-  CsvPosition place{.sha256 = std::string(object.text_of("sha256"))};
-  const bool read =
-      read_count(object, "bytes", place.bytes) && read_count(object, "lines", place.lines);
-  return read ? std::optional(place) : std::nullopt;
-}
-
-std::string format_position(const CsvPosition& place) {
-  return JsonObject()
-      .add_raw("bytes", std::to_string(place.bytes))
-      .add_raw("lines", std::to_string(place.lines))
-      .add("sha256", place.sha256)
-      .text();
-}
+/// A place, or null.
+struct PlaceOrNull : api::Object<CsvPosition> {
+  bool read(api::FieldReader& fields, std::string_view name, CsvPosition& to) const {
+    const JsonValue* place = fields.any(name);
+    return place != nullptr && place->is(JsonValue::Kind::Object) && read_known(*place, to);
+  }
+};
 
 /// A folder of states would grow by one for every input ever sent: the newest stay.
 void forget_oldest_states(const std::filesystem::path& folder) {
@@ -65,6 +51,21 @@ Failure state_failure(const std::string& path, const char* what) {
 
 }  // namespace
 
+void members(auto& v, CsvPosition& place) {
+  v.member("bytes", place.bytes);
+  v.member("lines", place.lines);
+  v.member("sha256", place.sha256);
+}
+
+void members(auto& v, MeasureState& state) {
+  v.member("server", state.server);
+  v.member("session", state.session);
+  v.member("stored", state.stored);
+  v.member("pending", state.pending, PlaceOrNull{});
+  v.member("verdicts", state.counts);
+  v.member("complete", state.complete);
+}
+
 VerdictCounts& VerdictCounts::operator+=(const VerdictCounts& other) {
   good += other.good;
   rework += other.rework;
@@ -76,41 +77,12 @@ VerdictCounts& VerdictCounts::operator+=(const VerdictCounts& other) {
 
 std::optional<MeasureState> parse_state(std::string_view line) {
   const auto document = parse_document(line);
-  if (!document) return std::nullopt;
-  MeasureState state{.server = std::string(document->text_of("server")),
-                     .session = std::string(document->text_of("session")),
-                     .complete = document->text_of("complete") == "true"};
-  const auto stored = read_position(document->member("stored"));
-  if (!stored || state.session.empty()) return std::nullopt;
-  state.stored = *stored;
-  state.pending = read_position(document->member("pending"));
-  const JsonValue& counts = document->member("verdicts");
-  const bool counted = read_count(counts, "good", state.counts.good) &&
-                       read_count(counts, "rework", state.counts.rework) &&
-                       read_count(counts, "reject", state.counts.reject) &&
-                       read_count(counts, "indeterminate", state.counts.indeterminate);
-  // The state of an older version has no such count.
-  if (counts.find("unjudged") != nullptr) read_count(counts, "unjudged", state.counts.unjudged);
-  return counted ? std::optional(std::move(state)) : std::nullopt;
+  MeasureState state;
+  if (!document || !read_known(*document, state) || state.session.empty()) return std::nullopt;
+  return state;
 }
 
-std::string format_state(const MeasureState& state) {
-  const VerdictCounts& counts = state.counts;
-  return JsonObject()
-      .add("server", state.server)
-      .add("session", state.session)
-      .add_raw("stored", format_position(state.stored))
-      .add_raw("pending", state.pending ? format_position(*state.pending) : "null")
-      .add_raw("verdicts", JsonObject()
-                               .add_raw("good", std::to_string(counts.good))
-                               .add_raw("rework", std::to_string(counts.rework))
-                               .add_raw("reject", std::to_string(counts.reject))
-                               .add_raw("indeterminate", std::to_string(counts.indeterminate))
-                               .add_raw("unjudged", std::to_string(counts.unjudged))
-                               .text())
-      .add_raw("complete", state.complete ? "true" : "false")
-      .text();
-}
+std::string format_state(const MeasureState& state) { return api::body_json(state); }
 
 std::string chunk_key(const MeasureState& state, const CsvPosition& end) {
   return fmt::format("{}-{}", state.session, end.sha256.substr(0, kKeyDigits));
@@ -119,10 +91,10 @@ std::string chunk_key(const MeasureState& state, const CsvPosition& end) {
 Outcome<MeasureJournal> MeasureJournal::open(const std::string& path) {
   std::error_code ignored;  // what matters is whether the file can be opened
   std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
-  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, kPrivate);
-  if (descriptor < 0) return state_failure(path, "open the state");
-  MeasureJournal journal(path, descriptor);
-  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+  MeasureJournal journal(
+      path, ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, kPrivate));
+  if (!journal.file_.is_open()) return state_failure(path, "open the state");
+  if (flock(journal.file_.get(), LOCK_EX | LOCK_NB) != 0) {
     return Failure{ExitCode::LocalFile,
                    path + ": another fitgauge is sending this input: wait until it is done"};
   }
@@ -130,19 +102,10 @@ Outcome<MeasureJournal> MeasureJournal::open(const std::string& path) {
   return journal;
 }
 
-MeasureJournal::MeasureJournal(MeasureJournal&& other) noexcept
-    : path_(std::move(other.path_)),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      state_(std::move(other.state_)) {}
-
-MeasureJournal::~MeasureJournal() {
-  if (descriptor_ >= 0) close(descriptor_);
-}
-
 Outcome<void> MeasureJournal::read_last_line() {
   const auto text = TRY(read_file(path_));
   const std::size_t end = text.rfind('\n') + 1;  // 0 when there is no whole line
-  if (end < text.size() && ftruncate(descriptor_, static_cast<off_t>(end)) != 0)
+  if (end < text.size() && ftruncate(file_.get(), static_cast<off_t>(end)) != 0)
     return state_failure(path_, "repair the state");
   if (end == 0) return {};
   const std::size_t before = end >= 2 ? text.rfind('\n', end - 2) : std::string::npos;
@@ -157,14 +120,14 @@ Outcome<void> MeasureJournal::append(const MeasureState& state) {
   state_ = state;
   if (path_.empty()) return {};
   const std::string line = format_state(state) + '\n';
-  const ssize_t written = write(descriptor_, line.data(), line.size());
+  const ssize_t written = write(file_.get(), line.data(), line.size());
   const bool whole = written == static_cast<ssize_t>(line.size());
-  if (whole && fdatasync(descriptor_) == 0) return {};
+  if (whole && fdatasync(file_.get()) == 0) return {};
   return state_failure(path_, "write the state");
 }
 
 Outcome<void> MeasureJournal::clear() {
-  if (!path_.empty() && ftruncate(descriptor_, 0) != 0)
+  if (!path_.empty() && ftruncate(file_.get(), 0) != 0)
     return state_failure(path_, "clear the state");
   state_.reset();
   return {};

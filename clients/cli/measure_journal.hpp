@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/folder.hpp"
+#include "base/json/body_forms.hpp"
 #include "cli/csv_chunks.hpp"
 
 namespace fitgauge::cli {
@@ -16,6 +18,13 @@ struct VerdictCounts {
   VerdictCounts& operator+=(const VerdictCounts& other);
   friend bool operator==(const VerdictCounts&, const VerdictCounts&) = default;
 };
+void members(auto& v, VerdictCounts& counts) {
+  v.member("good", counts.good);
+  v.member("rework", counts.rework);
+  v.member("reject", counts.reject);
+  v.member("indeterminate", counts.indeterminate);
+  v.optional("unjudged", counts.unjudged);  // absent in an answer without such values
+}
 
 /// Progress of storing the rows of one input.
 struct MeasureState {
@@ -28,6 +37,15 @@ struct MeasureState {
 
   friend bool operator==(const MeasureState&, const MeasureState&) = default;
 };
+
+/// Fills a body from an object that may have other members too. @returns whether it has its own.
+template <class Body>
+bool read_known(const JsonValue& object, Body& to) {
+  api::FieldErrors errors;
+  api::BodyReader read(object, "", errors);
+  members(read, to);
+  return errors.empty();
+}
 
 /// One line of JSON. @returns nothing for any other text.
 std::optional<MeasureState> parse_state(std::string_view line);
@@ -46,10 +64,6 @@ class MeasureJournal {
   /// One without a file: nothing survives.
   static MeasureJournal in_memory() { return MeasureJournal({}, -1); }
 
-  MeasureJournal(MeasureJournal&& other) noexcept;
-  MeasureJournal& operator=(MeasureJournal&&) = delete;
-  ~MeasureJournal();
-
   /// Empty if there is no file.
   const std::string& path() const { return path_; }
   const std::optional<MeasureState>& state() const { return state_; }
@@ -61,12 +75,11 @@ class MeasureJournal {
   Outcome<void> clear();
 
  private:
-  MeasureJournal(std::string path, int descriptor)
-      : path_(std::move(path)), descriptor_(descriptor) {}
+  MeasureJournal(std::string path, int opened) : path_(std::move(path)), file_(opened) {}
   Outcome<void> read_last_line();
 
   std::string path_;
-  int descriptor_;
+  Descriptor file_;
   std::optional<MeasureState> state_;
 };
 

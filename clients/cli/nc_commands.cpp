@@ -1,6 +1,5 @@
 #include "cli/nc_commands.hpp"
 
-#include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"
 #include "cli/local_files.hpp"

@@ -1,7 +1,6 @@
 #include "cli/open_programs.hpp"
 
 #include "base/allowance.hpp"
-#include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/folder_disk.hpp"
 #include "cli/local_files.hpp"

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "base/result.hpp"
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/syntax.hpp"
 #include "nc/program/control_disk.hpp"

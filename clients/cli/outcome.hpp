@@ -1,7 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
-
 namespace fitgauge::cli {
 
 /// Exit codes for the shell; fitgauge(1) has the same table.

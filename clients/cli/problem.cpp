@@ -1,7 +1,5 @@
 #include "cli/problem.hpp"
 
-#include "base/number.hpp"
-
 namespace fitgauge::cli {
 namespace {
 

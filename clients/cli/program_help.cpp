@@ -2,7 +2,6 @@
 
 #include <regex>
 
-#include "base/text.hpp"
 #include "nc/iso/codes.hpp"
 #include "nc/iso/line.hpp"
 #include "nc/iso/parser.hpp"

@@ -1,7 +1,6 @@
 #include "cli/record_commands.hpp"
 
 #include "base/length.hpp"
-#include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"
 #include "cli/local_files.hpp"

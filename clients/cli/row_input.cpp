@@ -1,7 +1,6 @@
 #include "cli/row_input.hpp"
 
 #include "base/length.hpp"
-#include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/local_files.hpp"
 #include "formats/dfq/measurement_csv.hpp"

@@ -1,6 +1,5 @@
 #include "cli/record_commands.hpp"
 
-#include "base/text.hpp"
 #include "cli/local_files.hpp"
 
 namespace fitgauge::cli {

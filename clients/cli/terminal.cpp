@@ -4,8 +4,6 @@
 
 #include <cstdio>
 
-#include "base/text.hpp"
-
 namespace fitgauge::cli {
 namespace {
 

@@ -2,7 +2,6 @@
 
 #include <regex>
 
-#include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"
 #include "cli/registration.hpp"

@@ -16,6 +16,7 @@ if(FITGAUGE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 add_library(fitgauge_options INTERFACE)
+target_include_directories(fitgauge_options INTERFACE "${CMAKE_SOURCE_DIR}/server")
 # A room is one library: a program maps what the parts of it need that it uses.
 target_link_options(fitgauge_options INTERFACE -Wl,--as-needed)
 target_compile_options(fitgauge_options INTERFACE
@@ -58,8 +59,8 @@ if(FITGAUGE_FUZZ)
   target_compile_options(fitgauge_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# What every file may use of the standard library: included before each C++ file, compiled once for the libraries and
-# once, with doctest, for the tests.
+# What every file may use: included before each C++ file, compiled once for the libraries and once, with doctest, for the
+# tests.
 set(prelude "${CMAKE_SOURCE_DIR}/server/base/prelude.hpp")
 set(is_precompiled "$<OR:$<BOOL:$<TARGET_PROPERTY:PRECOMPILE_HEADERS>>,$<BOOL:$<TARGET_PROPERTY:PRECOMPILE_HEADERS_REUSE_FROM>>>")
 set(needs_prelude "$<OR:$<BOOL:$<TARGET_PROPERTY:DISABLE_PRECOMPILE_HEADERS>>,$<NOT:${is_precompiled}>>")

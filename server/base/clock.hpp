@@ -1,7 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
-
 namespace fitgauge {
 
 inline constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;

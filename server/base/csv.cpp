@@ -1,7 +1,5 @@
 #include "base/csv.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::sheet {
 namespace {
 

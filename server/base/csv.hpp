@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/json/text_arena.hpp"
-#include "base/result.hpp"
 
 namespace fitgauge::sheet {
 

@@ -12,51 +12,37 @@ void require(bool succeeded) {
 
 }  // namespace
 
+void Sha256::Free::operator()(evp_md_st* algorithm) const { EVP_MD_free(algorithm); }
+void Sha256::Free::operator()(evp_md_ctx_st* state) const { EVP_MD_CTX_free(state); }
+
 /// The algorithm is fetched once: a fetch for every digest costs as much as hashing a row.
-struct Sha256::Context {
-  Context() : algorithm(EVP_MD_fetch(nullptr, "SHA256", nullptr)), state(EVP_MD_CTX_new()) {
-    require(algorithm != nullptr && state != nullptr);
-    begin();
-  }
-  Context& operator=(Context&&) = delete;  // neither copied nor moved
-  ~Context() {
-    EVP_MD_CTX_free(state);
-    EVP_MD_free(algorithm);
-  }
-
-  void begin() const { require(EVP_DigestInit_ex2(state, algorithm, nullptr) == 1); }
-
-  EVP_MD* algorithm;
-  EVP_MD_CTX* state;
-};
-
-Sha256::Sha256() : context_(std::make_unique<Context>()) {}
-Sha256::Sha256(Sha256&&) noexcept = default;
-Sha256& Sha256::operator=(Sha256&&) noexcept = default;
-Sha256::~Sha256() = default;
+Sha256::Sha256() : algorithm_(EVP_MD_fetch(nullptr, "SHA256", nullptr)), state_(EVP_MD_CTX_new()) {
+  require(algorithm_ != nullptr && state_ != nullptr &&
+          EVP_DigestInit_ex2(state_.get(), algorithm_.get(), nullptr) == 1);
+}
 
 Sha256& Sha256::update(std::span<const std::uint8_t> bytes) {
-  require(EVP_DigestUpdate(context_->state, bytes.data(), bytes.size()) == 1);
+  require(EVP_DigestUpdate(state_.get(), bytes.data(), bytes.size()) == 1);
   return *this;
 }
 
 Sha256& Sha256::update(std::string_view text) {
-  require(EVP_DigestUpdate(context_->state, text.data(), text.size()) == 1);
+  require(EVP_DigestUpdate(state_.get(), text.data(), text.size()) == 1);
   return *this;
 }
 
 Digest Sha256::finish() {
   Digest digest;
-  require(EVP_DigestFinal_ex(context_->state, digest.data(), nullptr) == 1);
-  context_->begin();
+  require(EVP_DigestFinal_ex(state_.get(), digest.data(), nullptr) == 1 &&
+          EVP_DigestInit_ex2(state_.get(), algorithm_.get(), nullptr) == 1);
   return digest;
 }
 
 Digest Sha256::so_far() const {
-  const Context copy;
-  require(EVP_MD_CTX_copy_ex(copy.state, context_->state) == 1);
+  const Sha256 copy;
   Digest digest;
-  require(EVP_DigestFinal_ex(copy.state, digest.data(), nullptr) == 1);
+  require(EVP_MD_CTX_copy_ex(copy.state_.get(), state_.get()) == 1 &&
+          EVP_DigestFinal_ex(copy.state_.get(), digest.data(), nullptr) == 1);
   return digest;
 }
 

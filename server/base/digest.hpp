@@ -1,5 +1,8 @@
 #pragma once
 
+struct evp_md_st;
+struct evp_md_ctx_st;
+
 namespace fitgauge {
 
 /// A SHA-256 digest (FIPS 180-4).
@@ -9,10 +12,6 @@ using Digest = std::array<std::uint8_t, 32>;
 class Sha256 {
  public:
   Sha256();
-  Sha256(Sha256&&) noexcept;
-  Sha256& operator=(Sha256&&) noexcept;
-  ~Sha256();
-
   Sha256& update(std::span<const std::uint8_t> bytes);
   Sha256& update(std::string_view text);
 
@@ -23,8 +22,13 @@ class Sha256 {
   Digest so_far() const;
 
  private:
-  struct Context;
-  std::unique_ptr<Context> context_;
+  struct Free {
+    void operator()(evp_md_st* algorithm) const;
+    void operator()(evp_md_ctx_st* state) const;
+  };
+
+  std::unique_ptr<evp_md_st, Free> algorithm_;
+  std::unique_ptr<evp_md_ctx_st, Free> state_;
 };
 
 Digest sha256(std::string_view text);

@@ -5,8 +5,6 @@
 
 #include <filesystem>
 
-#include "base/result.hpp"
-
 namespace fitgauge {
 
 /// Owns a file descriptor; -1 is none.
@@ -25,6 +23,7 @@ class Descriptor {
 
   int get() const { return fd_; }
   bool is_open() const { return fd_ >= 0; }
+  int release() { return std::exchange(fd_, -1); }
 
  private:
   int fd_ = -1;
@@ -69,5 +68,19 @@ class Folder {
   Descriptor descriptor_;
   std::filesystem::path path_;
 };
+
+/// Opens a regular file to read, also by a link. Never blocks: a FIFO or a device is refused.
+/// @errors StorageUnavailable with the cause alone.
+Result<Descriptor> open_regular(const std::filesystem::path& file);
+
+/// The bytes of a regular file, at most 64 MiB. @errors as open_regular().
+Result<std::string> read_regular(const std::filesystem::path& file);
+
+/// The rest of an open file. @errors as read_regular().
+Result<std::string> read_all(const Descriptor& file);
+
+/// Writes `FILE.new`, syncs it and renames it: others see a whole file or none. A link or a file of
+/// that name is replaced. @errors StorageUnavailable with the cause alone.
+Result<void> replace_file(const std::string& file, std::string_view text, mode_t rights);
 
 }  // namespace fitgauge

@@ -2,8 +2,6 @@
 
 #include <zlib.h>
 
-#include "base/result.hpp"
-
 namespace fitgauge {
 
 /// Packs text piece by piece (RFC 1952), at the fastest level because the texts are repetitive.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
-
 namespace fitgauge {
 
 /// Forms of a decimal text, and the treatment of digits finer than the scale.

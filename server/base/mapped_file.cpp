@@ -6,7 +6,7 @@
 
 #include <cerrno>
 
-#include "base/regular_file.hpp"
+#include "base/folder.hpp"
 
 namespace fitgauge {
 namespace {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
-
 namespace fitgauge {
 
 /// A text that may be a mapped file, whose pages need not stay in memory.

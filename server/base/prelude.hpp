@@ -1,6 +1,6 @@
 #pragma once
 
-// The parts of the standard library that every file may use, with fmt and Boost.System's result.
+// What every file may use: parts of the standard library, fmt, results with their errors, and texts.
 // The build includes this file before every C++ file and compiles it once (precompiled header).
 
 #include <fmt/format.h>
@@ -44,3 +44,6 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "base/result.hpp"
+#include "base/text.hpp"

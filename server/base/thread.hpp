@@ -2,8 +2,6 @@
 
 #include <future>
 
-#include "base/result.hpp"
-
 namespace fitgauge {
 
 /// Receives each exception that a border has caught: `place` names the border, `what` is the

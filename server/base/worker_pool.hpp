@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/allowance.hpp"
-#include "base/result.hpp"
 #include "base/thread.hpp"
 
 namespace fitgauge {

@@ -4,7 +4,6 @@
 
 #include "api/services.hpp"
 #include "base/folder.hpp"
-#include "base/regular_file.hpp"
 #include "http/client/http_client.hpp"
 #include "http/server.hpp"
 #include "service/log/log_keys.hpp"

@@ -3,8 +3,7 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
-#include "base/number.hpp"
-#include "base/regular_file.hpp"
+#include "base/folder.hpp"
 #include "daemon/connections.hpp"
 #include "plant/virtual_control/virtual_control.hpp"
 #include "service/log/log_keys.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
-
 namespace fitgauge::daemon {
 
 /// Everything that can be set from outside. Defaults < TOML file < FITGAUGE_* environment < flags;

@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "base/regular_file.hpp"
+#include "base/folder.hpp"
 #include "daemon/log.hpp"
 #include "service/log/station_texts.hpp"
 

@@ -9,12 +9,10 @@
 
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
-#include <fstream>
 
 #include "api/runs/run_posting.hpp"
 #include "api/wire/problem.hpp"
-#include "base/regular_file.hpp"
+#include "base/folder.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/log.hpp"
 #include "db/store/database.hpp"
@@ -94,23 +92,6 @@ Result<void> take_key_of_file(const std::string& file, const std::vector<store::
     log_info("admin_key_taken", fmt::format("the key in {} is valid", file));
   }
   return {};
-}
-
-/// Writes the key only for its owner, to a temporary file that is renamed: nobody reads half of it,
-/// and a link or file of that name that others could read is replaced.
-Result<void> write_key(const std::string& file, std::string_view token) {
-  const std::string aside = file + ".new";
-  ::unlink(aside.c_str());
-  const int out = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
-  const std::string line = std::string(token) + '\n';
-  const bool written = out >= 0 && ::write(out, line.data(), line.size()) == ssize_t(line.size()) &&
-                       ::fsync(out) == 0 && std::rename(aside.c_str(), file.c_str()) == 0;
-  const int cause = errno;
-  if (out >= 0) ::close(out);
-  if (written) return {};
-  ::unlink(aside.c_str());
-  return config_error(
-      fmt::format("admin-key-out: cannot write {}: {}", file, std::strerror(cause)));
 }
 
 /// For OpenSSL: its buffers begin at a page.
@@ -235,7 +216,10 @@ Result<void> provide_admin_key(const Config& config, bool needs_one, app::KeySer
   if (has_one || !needs_one) return {};
   const std::string token = app::KeyService::new_token();
   const std::string file = admin_key_out(config);
-  TRY(write_key(file, token));
+  if (const auto written = replace_file(file, token + '\n', 0600); !written) {
+    return config_error(
+        fmt::format("admin-key-out: cannot write {}: {}", file, written.error().message));
+  }
   if (const auto created = keys.create(kName, app::Role::Admin, token); !created) {
     ::unlink(file.c_str());
     return created.error();
@@ -259,17 +243,8 @@ bool is_to_end_after_a_second() {
 }
 
 Result<void> write_port_file(const std::string& path, std::uint16_t port) {
-  const std::string aside = path + ".new";
-  {
-    std::remove(aside.c_str());  // a FIFO would wait for a reader
-    std::ofstream file(aside);
-    file << port << '\n';
-    if (!file.flush()) return config_error("cannot write the port file " + path);
-  }
-  if (std::rename(aside.c_str(), path.c_str()) != 0) {
-    return config_error("cannot write the port file " + path);
-  }
-  return {};
+  if (replace_file(path, std::to_string(port) + '\n', 0666)) return {};
+  return config_error("cannot write the port file " + path);
 }
 
 Result<std::unique_ptr<app::Application>> open_or_wait(const app::ApplicationOptions& options,

@@ -7,7 +7,7 @@
 #include <ctime>
 #include <sstream>
 
-#include "base/regular_file.hpp"
+#include "base/folder.hpp"
 #include "daemon/log.hpp"
 #include "db/store/database.hpp"
 

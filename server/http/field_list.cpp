@@ -1,7 +1,5 @@
 #include "http/field_list.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::http {
 namespace {
 

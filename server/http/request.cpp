@@ -1,6 +1,5 @@
 #include "http/request.hpp"
 
-#include "base/text.hpp"
 #include "http/engine/request_head.hpp"
 #include "http/field_list.hpp"
 #include "http/route.hpp"

@@ -1,10 +1,8 @@
 #include "http/server.hpp"
 
-#include <unistd.h>
-
 #include <random>
 
-#include "base/number.hpp"
+#include "base/folder.hpp"
 #include "http/engine/asio.hpp"
 #include "http/engine/exchange.hpp"
 #include "http/engine/io_thread.hpp"
@@ -12,37 +10,6 @@
 
 namespace fitgauge::http {
 using TlsContext = std::shared_ptr<asio::ssl::context>;
-
-/// A connected socket for another I/O thread: Asio's socket object belongs to one thread, so only
-/// the descriptor is passed. Owns it.
-class SocketInTransit {
- public:
-  explicit SocketInTransit(Socket socket)
-      : protocol_(socket.local_endpoint().protocol()), descriptor_(socket.release()) {}
-  SocketInTransit(SocketInTransit&& other) noexcept
-      : protocol_(other.protocol_), descriptor_(std::exchange(other.descriptor_, kNone)) {}
-  SocketInTransit& operator=(SocketInTransit&&) = delete;
-  ~SocketInTransit() {
-    if (descriptor_ != kNone) ::close(descriptor_);
-  }
-
-  /// On the thread of `context`.
-  Socket arrive(asio::io_context& context) {
-    Socket socket(context);
-    socket.assign(protocol_, descriptor_);
-    descriptor_ = kNone;
-    error_code gone;  // a client that has left already shows at the first read
-    socket.set_option(asio::ip::tcp::no_delay(true), gone);
-    socket.non_blocking(true, gone);
-    return socket;
-  }
-
- private:
-  static constexpr int kNone = -1;
-
-  asio::ip::tcp protocol_;
-  int descriptor_;
-};
 
 class Server::Impl {
  public:
@@ -120,10 +87,18 @@ class Server::Impl {
       const std::lock_guard lock(tls_mutex_);
       tls = tls_;
     }
-    thread.post([&thread, place = std::move(place), transit = SocketInTransit(std::move(socket)),
-                 peer = std::move(peer), tls = std::move(tls)]() mutable {
+    // Asio's socket object belongs to one thread, so only the descriptor is passed.
+    const auto protocol = socket.local_endpoint().protocol();
+    thread.post([&thread, place = std::move(place), protocol,
+                 descriptor = Descriptor(socket.release()), peer = std::move(peer),
+                 tls = std::move(tls)]() mutable {
       if (thread.shared().stopping) return;
-      Socket arrived = transit.arrive(thread.context());
+      Socket arrived(thread.context());
+      arrived.assign(protocol, descriptor.get());
+      descriptor.release();
+      error_code gone;  // a client that has left already shows at the first read
+      arrived.set_option(asio::ip::tcp::no_delay(true), gone);
+      arrived.non_blocking(true, gone);
       std::shared_ptr<Connection> connection;
       if (tls) {
         connection = std::make_shared<TlsConnection>(thread, std::move(peer), std::move(arrived),

@@ -1,6 +1,6 @@
 #include "record/measurement.hpp"
 
-#include "base/number.hpp"
+#include "base/text.hpp"
 #include "record/origins.hpp"
 
 namespace fitgauge::app {

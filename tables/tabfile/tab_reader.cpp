@@ -1,6 +1,5 @@
 #include "tables/tabfile/tab_table.hpp"
 
-#include "base/number.hpp"
 #include "base/text.hpp"
 #include "tables/tabfile/characters.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <cassert>
 
-#include "base/number.hpp"
 #include "base/text.hpp"
 #include "tables/tabfile/characters.hpp"
 

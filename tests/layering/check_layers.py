@@ -25,7 +25,7 @@ BORDERS = {
 # What starts a thread. All but base/thread.hpp take that one, which guards what the thread does. (The tools of clients
 # end with their command, and std::async hands an exception on.)
 RAW_THREAD = re.compile(r"std::(j?thread|async)\b|pthread_create|boost::thread|asio::thread_pool")
-# What opens a file by its path to read it, and so waits for the writer of a FIFO: base/regular_file.hpp does not.
+# What opens a file by its path to read it, and so waits for the writer of a FIFO: base/folder.hpp does not.
 RAW_READ = re.compile(r"std::ifstream|\bfopen\(|parse_file\(|(certificate|key|verify|CA)_(chain_)?file\(|"
                       r"CURLOPT_CAINFO\b|O_RDONLY(?! \| O_DIRECTORY)")
 READERS = ("server/base/", "db/sqlite/data_directory.cpp")
@@ -87,7 +87,7 @@ def main(root: Path, print_arrows: bool) -> int:
             if room != "cli" and name != "base/thread.hpp":
                 findings += [f"{path}: {raw[0]} is a thread that an exception ends: use base/thread.hpp" for raw in RAW_THREAD.finditer(text)]
             if room != "cli" and not str(path).startswith(READERS):
-                findings += [f"{path}: {raw[0]} waits for a FIFO: use base/regular_file.hpp" for raw in RAW_READ.finditer(text)]
+                findings += [f"{path}: {raw[0]} waits for a FIFO: use base/folder.hpp" for raw in RAW_READ.finditer(text)]
             for quoted, angled in INCLUDE.findall(text):
                 target = quoted.split("/")[0]
                 if target in rank:

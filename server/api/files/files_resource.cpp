@@ -4,7 +4,6 @@
 #include "api/runs/run_codec.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/json/body_forms.hpp"
-#include "base/text.hpp"
 #include "service/jobs.hpp"
 
 namespace fitgauge::api {

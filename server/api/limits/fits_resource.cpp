@@ -4,7 +4,6 @@
 #include "api/resources.hpp"
 #include "api/statistics/value_selection.hpp"
 #include "api/wire/formulas.hpp"
-#include "base/text.hpp"
 #include "metrology/statistics/fit_analysis.hpp"
 #include "service/jobs.hpp"
 #include "service/tables/table_catalog.hpp"

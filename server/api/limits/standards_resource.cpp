@@ -1,7 +1,6 @@
 #include "api/resources.hpp"
 
 #include "api/limits/limits_codec.hpp"
-#include "base/text.hpp"
 #include "tables/standards/standard.hpp"
 
 namespace fitgauge::api {

@@ -2,7 +2,6 @@
 
 #include "api/resources.hpp"
 #include "base/json/body_forms.hpp"
-#include "base/number.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -4,7 +4,6 @@
 #include "api/wire/event_text.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/json/json_value.hpp"
-#include "base/text.hpp"
 #include "record/measurement.hpp"
 
 namespace fitgauge::api {

@@ -1,6 +1,5 @@
 #include "api/runs/setup_codec.hpp"
 
-#include "base/number.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
 #include "service/files/file_service.hpp"

@@ -1,7 +1,6 @@
 #include "api/runs/run_codec.hpp"
 
 #include "base/csv.hpp"
-#include "base/text.hpp"
 
 namespace fitgauge::api {
 namespace {

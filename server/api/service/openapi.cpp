@@ -1,7 +1,6 @@
 #include "api/resources.hpp"
 
 #include "base/json/json_writer.hpp"
-#include "base/text.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -63,16 +62,11 @@ std::string_view place(http::ParameterPlace place) {
 
 /// The example of a body: of JSON that of its schema, of others a text.
 std::string example_of(std::string_view type, const std::string& schema, const Schemas& schemas) {
-  const auto quoted = [](std::string_view text) {
-    std::string out;
-    append_json_string(out, text);
-    return out;
-  };
-  if (type == "text/csv") return quoted("designation,measured_mm,part_id\n25 H7,25.013,SN-1\n");
-  if (type == "application/octet-stream") return quoted("BEGIN PGM BORE MM\nEND PGM BORE MM\n");
+  if (type == "text/csv") return json_string("designation,measured_mm,part_id\n25 H7,25.013,SN-1\n");
+  if (type == "application/octet-stream") return json_string("BEGIN PGM BORE MM\nEND PGM BORE MM\n");
   const auto named = std::ranges::find(schemas, schema, &NamedSchema::name);
   if (named == schemas.end()) return {};
-  if (type == "application/x-ndjson") return quoted(named->example + '\n');
+  if (type == "application/x-ndjson") return json_string(named->example + '\n');
   return type == "application/json" ? named->example : "";
 }
 

@@ -1,7 +1,6 @@
 #include "api/statistics/computation.hpp"
 
 #include "api/handlers.hpp"
-#include "base/text.hpp"
 #include "service/jobs.hpp"
 
 namespace fitgauge::api {

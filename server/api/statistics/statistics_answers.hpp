@@ -4,7 +4,6 @@
 #include "api/statistics/value_selection.hpp"
 #include "api/wire/formulas.hpp"
 #include "base/json/schema.hpp"
-#include "base/result.hpp"
 #include "metrology/statistics/process_model.hpp"
 
 namespace fitgauge::api {

@@ -2,7 +2,6 @@
 #include "api/limits/limits_codec.hpp"
 #include "api/resources.hpp"
 #include "api/wire/request_facts.hpp"
-#include "base/text.hpp"
 #include "http/field_list.hpp"
 #include "service/tables/custom_column.hpp"
 #include "tables/iso286/tolerance_class.hpp"

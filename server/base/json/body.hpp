@@ -213,17 +213,18 @@ template <class T>
 void write_body(JsonWriter& json, const T& body) {
   json.begin_object();
   BodyWriter write(json);
-  members(write, body);
+  if constexpr (requires { members(write, body); }) {
+    members(write, body);
+  } else {  // described for a reader too; a writer changes no variable
+    members(write, const_cast<T&>(body));
+  }
   json.end_object();
 }
 
 /// The JSON of an answer.
 template <class T>
 std::string body_json(const T& answer) {
-  std::string out;
-  JsonWriter json(out);
-  write_body(json, answer);
-  return out;
+  return json_by([&](JsonWriter& json) { write_body(json, answer); });
 }
 
 }  // namespace fitgauge::api

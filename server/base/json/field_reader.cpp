@@ -1,7 +1,5 @@
 #include "base/json/field_reader.hpp"
 
-#include "base/number.hpp"
-
 namespace fitgauge::api {
 namespace {
 

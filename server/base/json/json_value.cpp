@@ -4,8 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/text.hpp"
-
 namespace fitgauge {
 namespace {
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
-
 namespace fitgauge {
 
 /// One JSON value as written: numbers keep their digits, because a length must not pass through a

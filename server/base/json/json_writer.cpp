@@ -34,6 +34,12 @@ void append_json_string(std::string& out, std::string_view text) {
   out += '"';
 }
 
+std::string json_string(std::string_view text) {
+  std::string out;
+  append_json_string(out, text);
+  return out;
+}
+
 }  // namespace fitgauge
 
 namespace fitgauge::api {
@@ -175,10 +181,7 @@ void write_json(JsonWriter& json, const JsonValue& value) {
 }
 
 std::string json_text(const JsonValue& value) {
-  std::string out;
-  JsonWriter json(out);
-  write_json(json, value);
-  return out;
+  return json_by([&](JsonWriter& json) { write_json(json, value); });
 }
 
 }  // namespace fitgauge::api

@@ -19,6 +19,7 @@ char* write_escape(char* to, char c);
 
 /// `text` as a JSON string with its quotes.
 void append_json_string(std::string& out, std::string_view text);
+std::string json_string(std::string_view text);
 
 }  // namespace fitgauge
 
@@ -82,15 +83,23 @@ class JsonWriter {
   bool after_key_ = false;
 };
 
+/// The JSON that `write(json)` writes.
+template <class Write>
+std::string json_by(const Write& write) {
+  std::string out;
+  JsonWriter json(out);
+  write(json);
+  return out;
+}
+
 /// The object whose members `write(json)` writes.
 template <class Write>
 std::string json_object(const Write& write) {
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object();
-  write(json);
-  json.end_object();
-  return out;
+  return json_by([&](JsonWriter& json) {
+    json.begin_object();
+    write(json);
+    json.end_object();
+  });
 }
 
 /// Writes a value as read: numbers keep their digits.

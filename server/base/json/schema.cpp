@@ -19,12 +19,6 @@ std::string with_members(std::string json, std::string_view members) {
   return json.append(members) + '}';
 }
 
-std::string json_text(std::string_view text) {
-  std::string out;
-  append_json_string(out, text);
-  return out;
-}
-
 }  // namespace
 
 std::string boolean() { return R"({"type":"boolean"})"; }
@@ -44,7 +38,7 @@ std::string time() { return R"({"type":"string","format":"date-time"})"; }
 
 std::string words(const std::vector<std::string_view>& words) {
   std::vector<std::string> quoted_words;
-  for (const std::string_view word : words) quoted_words.push_back(json_text(word));
+  for (const std::string_view word : words) quoted_words.push_back(json_string(word));
   return fmt::format(R"({{"type":"string","enum":{}}})", list_of(quoted_words));
 }
 
@@ -84,12 +78,12 @@ std::string object(const Fields& fields, Others others) {
   std::vector<std::string> required;
   std::vector<std::string> properties;
   for (const Field& field : fields) {
-    const std::string name = json_text(field.name);
+    const std::string name = json_string(field.name);
     if (field.required) required.push_back(name);
     const std::string described =
         field.meaning.empty()
             ? field.json
-            : with_members(field.json, R"("description":)" + json_text(field.meaning));
+            : with_members(field.json, R"("description":)" + json_string(field.meaning));
     properties.push_back(name + ':' + described);
   }
   std::string json = R"({"type":"object")";

@@ -2,7 +2,7 @@
 
 #include <zlib.h>
 
-#include "base/regular_file.hpp"
+#include "base/folder.hpp"
 
 namespace fitgauge::certificate {
 namespace {

@@ -1,6 +1,5 @@
 #include "formats/dfq/description.hpp"
 
-#include "base/number.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::aqdef {

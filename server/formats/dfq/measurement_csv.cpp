@@ -1,6 +1,6 @@
 #include "formats/dfq/measurement_csv.hpp"
 
-#include "base/number.hpp"
+#include "base/text.hpp"
 
 namespace fitgauge::aqdef {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "base/regular_file.hpp"
+#include "base/folder.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::sheet {

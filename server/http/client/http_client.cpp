@@ -3,9 +3,7 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 
-#include "base/number.hpp"
-#include "base/regular_file.hpp"
-#include "base/text.hpp"
+#include "base/folder.hpp"
 
 namespace fitgauge {
 

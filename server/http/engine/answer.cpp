@@ -3,7 +3,6 @@
 #include <fmt/chrono.h>
 
 #include "base/gzip.hpp"
-#include "base/text.hpp"
 
 namespace fitgauge::http {
 namespace {

@@ -1,7 +1,5 @@
 #include "http/engine/exchange.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::http {
 
 namespace {

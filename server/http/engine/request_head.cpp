@@ -1,7 +1,5 @@
 #include "http/engine/request_head.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::http {
 namespace {
 

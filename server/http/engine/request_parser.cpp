@@ -3,8 +3,6 @@
 #include <boost/asio/buffer.hpp>
 #include <boost/beast/http/error.hpp>
 
-#include "base/text.hpp"
-
 namespace fitgauge::http {
 
 namespace beast = boost::beast;

@@ -1,7 +1,5 @@
 #include "http/engine/route_tree.hpp"
 
-#include "base/number.hpp"
-#include "base/text.hpp"
 #include "http/engine/request_head.hpp"
 
 namespace fitgauge::http {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "http/route.hpp"
 
 namespace fitgauge::http {

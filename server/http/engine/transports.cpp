@@ -3,7 +3,7 @@
 #include <openssl/err.h>
 #include <openssl/pem.h>
 
-#include "base/regular_file.hpp"
+#include "base/folder.hpp"
 
 namespace fitgauge::http {
 namespace {

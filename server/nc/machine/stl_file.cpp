@@ -1,6 +1,6 @@
 #include "nc/machine/triangle_tree.hpp"
 
-#include "base/number.hpp"
+#include "base/text.hpp"
 
 namespace fitgauge::machine {
 namespace {

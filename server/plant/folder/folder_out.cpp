@@ -1,7 +1,6 @@
 #include "api/measurements/measurement_codec.hpp"
 #include "api/measurements/measurement_file.hpp"
 #include "base/folder.hpp"
-#include "base/regular_file.hpp"
 #include "base/text.hpp"
 #include "formats/dfq/dfq_writer.hpp"
 #include "plant/kind.hpp"

@@ -7,7 +7,7 @@
 
 #include <cerrno>
 
-#include "base/regular_file.hpp"
+#include "base/folder.hpp"
 
 namespace fitgauge::connections {
 namespace {
