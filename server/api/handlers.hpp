@@ -4,6 +4,15 @@
 
 namespace fitgauge::api {
 
+/// As TRY in a function that answers: gives the value of a result, or returns after its error was
+/// sent to the responder.
+#define TRY_OR_FAIL(responder, ...)                                  \
+  __extension__({                                                    \
+    auto tried_ = (__VA_ARGS__);                                     \
+    if (!tried_) return (responder).fail(std::move(tried_).error()); \
+    *std::move(tried_);                                              \
+  })
+
 /// For callbacks, which are copied.
 using SharedResponder = std::shared_ptr<Responder>;
 inline SharedResponder share(Responder responder) {

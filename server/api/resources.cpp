@@ -8,7 +8,9 @@ void Routes::operator()(std::string_view head, http::Handler handler, http::Rout
   std::istringstream words{std::string(head)};
   std::string method;
   words >> method >> route.pattern >> route.operation >> route.access;
-  if (!words || !words.eof()) throw std::logic_error("no head of a route: " + std::string(head));
+  if (!words) throw std::logic_error("no head of a route: " + std::string(head));
+  for (int refusal = 0; words >> refusal;) route.refusals.push_back(refusal);
+  if (!words.eof()) throw std::logic_error("no head of a route: " + std::string(head));
   route.method = http::method_named(method);
   route.handler = std::move(handler);
   all.push_back(std::move(route));

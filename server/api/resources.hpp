@@ -19,8 +19,8 @@ class Routes {
   const std::shared_ptr<ResponseCache> cache;
   std::vector<http::Route> all{};
 
-  /// @param head method, pattern, operation and access: "GET /v1/runs/{id} getRun viewer"
-  /// @throws std::logic_error for another number of words
+  /// @param head method, pattern, operation, access and refusals:
+  /// "GET /v1/runs/{id} getRun viewer 404". @throws std::logic_error for other words
   void operator()(std::string_view head, http::Handler handler, http::Route route);
   void operator()(std::string_view head, Handler handler, http::Route route);
   /// Groups the operations that were added since the last call.

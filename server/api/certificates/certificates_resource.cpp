@@ -43,10 +43,8 @@ Response written(CertificateDraft& draft, Timestamp now, const std::string& chec
 /// slow.
 void finish(const Services& services, const std::shared_ptr<CertificateDraft>& draft,
             const SharedResponder& shared) {
-  const auto last = services.measurements.parse_id(draft->last_id());
-  if (!last) return shared->fail(last.error());
-  services.log.prove(*last, [&services, draft,
-                             shared](const Result<app::LogService::Proof>& proof) {
+  const auto last = TRY_OR_FAIL(*shared, services.measurements.parse_id(draft->last_id()));
+  services.log.prove(last, [&services, draft, shared](const Result<app::LogService::Proof>& proof) {
     if (!proof) return shared->fail(proof.error());
     services.jobs.figures.run(
         [&services, now = services.clock.now(), head = proof->head, draft]() -> Result<Response> {
@@ -57,15 +55,13 @@ void finish(const Services& services, const std::shared_ptr<CertificateDraft>& d
 }
 
 void make_certificate(const Services& services, const Request& request, Responder responder) {
-  auto order = order_of(request);
-  if (!order) return responder.fail(order.error());
-  const auto query = measurement_query(services, request);
-  if (!query) return responder.fail(query.error());
-  const auto draft = std::make_shared<CertificateDraft>(*std::move(order));
+  auto order = TRY_OR_FAIL(responder, order_of(request));
+  const auto query = TRY_OR_FAIL(responder, measurement_query(services, request));
+  const auto draft = std::make_shared<CertificateDraft>(std::move(order));
   const SharedResponder shared = share(std::move(responder));
   const auto simulated = std::make_shared<std::string>();  // the first id
   services.measurements.list(
-      *query, 0, kMostMeasurements,
+      query, 0, kMostMeasurements,
       [draft, simulated](const app::Measurement& m) {
         if (draft->bytes() <= kMostBytes) draft->add(m);
         if (m.source == app::Source::Gauge || !simulated->empty()) return;
@@ -116,7 +112,7 @@ std::vector<Parameter> parameters() {
 }  // namespace
 
 void add_certificates_routes(Routes& add) {
-  add("GET /v1/certificates getCertificate viewer", make_certificate,
+  add("GET /v1/certificates getCertificate viewer 404 422", make_certificate,
       {.summary = "Inspection report of an order or a part",
        .description =
            "Every value of the order, the part or both, in storage order, with limits, verdict, "
@@ -129,8 +125,7 @@ void add_certificates_routes(Routes& add) {
        .response_types = {std::string(kPdf), std::string(kJson)},
        .outcomes = {{.meaning = "The certificate",
                      .schema = "Certificate",
-                     .media_types = {std::string(kPdf), std::string(kJson)}}},
-       .refusals = {404, 422}});
+                     .media_types = {std::string(kPdf), std::string(kJson)}}}});
 }
 
 }  // namespace fitgauge::api

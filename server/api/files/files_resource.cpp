@@ -38,10 +38,9 @@ std::string href(std::string_view path) {
 }
 
 void put_file(const Services& services, const Request& request, Responder responder) {
-  auto path = path_of(request);
-  if (!path) return responder.fail(path.error());
-  const std::string location = href(path->text());
-  const auto put = [&services, &request, path = *std::move(path), location,
+  auto path = TRY_OR_FAIL(responder, path_of(request));
+  const std::string location = href(path.text());
+  const auto put = [&services, &request, path = std::move(path), location,
                     shared = share(std::move(responder))](const Result<std::string>& tag) {
     if (!tag) return shared->fail(tag.error());
     services.files.write(
@@ -57,10 +56,9 @@ void put_file(const Services& services, const Request& request, Responder respon
 }
 
 void get_file(const Services& services, const Request& request, Responder responder) {
-  auto path = path_of(request);
-  if (!path) return responder.fail(path.error());
+  auto path = TRY_OR_FAIL(responder, path_of(request));
   services.files.read(
-      *std::move(path),
+      std::move(path),
       answer_with(std::move(responder), [if_match = preconditions_of(request).if_match](
                                             app::DiskFile file) {
         return with_tag(foreign_bytes("application/octet-stream", std::move(file.bytes)), if_match);
@@ -68,11 +66,10 @@ void get_file(const Services& services, const Request& request, Responder respon
 }
 
 void delete_file(const Services& services, const Request& request, Responder responder) {
-  auto path = path_of(request);
-  if (!path) return responder.fail(path.error());
+  auto path = TRY_OR_FAIL(responder, path_of(request));
   services.files.remove(
-      *path, caller_text(request), text_precondition_of(request),
-      services.runs.queued([&](const app::RunOrder& order) { return order.names(*path); }),
+      path, caller_text(request), text_precondition_of(request),
+      services.runs.queued([&](const app::RunOrder& order) { return order.names(path); }),
       answer_with(std::move(responder), [](bool) { return Response(204); }));
 }
 
@@ -117,13 +114,12 @@ Result<Response> act_on(app::RunService& runs, const ControlPath& path, bool for
 
 /// `action=check` and `action=format`.
 void act_on_file(const Services& services, const Request& request, Responder responder) {
-  const auto path = path_of(request);
-  if (!path) return responder.fail(path.error());
+  const auto path = TRY_OR_FAIL(responder, path_of(request));
   const bool formats = request.text("action") == "format";
   std::optional<std::string> draft;
   if (!request.body().empty()) draft = std::string(request.body());
   services.jobs.orders.run(
-      [&services, path = *path, formats, draft = std::move(draft)]() mutable -> Result<Response> {
+      [&services, path, formats, draft = std::move(draft)]() mutable -> Result<Response> {
         auto done = act_on(services.runs, path, formats, std::move(draft));
         if (done) return done;
         Error error = std::move(done).error();
@@ -149,24 +145,22 @@ void add_files_routes(Routes& add) {
       {.summary = "The files of the control's disk",
        .parameters = {query("prefix", "Only paths with this beginning: nc_prog/8255/")},
        .outcomes = {{.meaning = "The files", .schema = "Files"}}});
-  add("GET /v1/files/{path*} getFile viewer", get_file,
+  add("GET /v1/files/{path*} getFile viewer 404 412", get_file,
       {.summary = "A file, byte for byte",
        .parameters = with_preconditions(kPath),
        .response_types = {},
-       .outcomes = {{.meaning = "Bytes of the file", .media_types = {"application/octet-stream"}}},
-       .refusals = {404, 412}});
-  add("PUT /v1/files/{path*} putFile admin", put_file,
+       .outcomes = {
+           {.meaning = "Bytes of the file", .media_types = {"application/octet-stream"}}}});
+  add("PUT /v1/files/{path*} putFile admin 412 422", put_file,
       {.summary = "Store a program, mask or table as it is on the control",
        .parameters = with_preconditions(kPath),
        .body = {.use = http::BodyUse::Required, .limit = kBodyLimit},
-       .outcomes = {{.meaning = "Replaced"}, {.status = 201, .meaning = "Created"}},
-       .refusals = {412, 422}});
-  add("DELETE /v1/files/{path*} deleteFile admin", delete_file,
+       .outcomes = {{.meaning = "Replaced"}, {.status = 201, .meaning = "Created"}}});
+  add("DELETE /v1/files/{path*} deleteFile admin 404 409 412", delete_file,
       {.summary = "Delete a file",
        .parameters = with_preconditions(kPath),
-       .outcomes = {{.status = 204, .meaning = "Deleted"}},
-       .refusals = {404, 409, 412}});
-  add("POST /v1/files/{path*} checkFile viewer", act_on_file,
+       .outcomes = {{.status = 204, .meaning = "Deleted"}}});
+  add("POST /v1/files/{path*} checkFile viewer 404 422", act_on_file,
       {.summary = "Check a program with those it calls, a mask or a table, or format a program; "
                   "nothing runs and nothing is stored",
        .description =
@@ -181,8 +175,7 @@ void add_files_routes(Routes& add) {
        .body = {.use = http::BodyUse::Optional, .limit = kBodyLimit},
        .outcomes = {{.meaning = "Findings, or the formatted program",
                      .schema = "Diagnostics",
-                     .media_types = {"application/json", "text/plain"}}},
-       .refusals = {404, 422}});
+                     .media_types = {"application/json", "text/plain"}}}});
 }
 
 }  // namespace fitgauge::api

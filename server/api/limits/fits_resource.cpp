@@ -260,17 +260,15 @@ http::AsyncHandler answer_fit(const Routes& add, Designation designation_of) {
               [&services, &request, designation_of,
                shared](const Result<app::TableCatalog::Tables>& tables) {
                 if (!tables) return shared->fail(tables.error());
-                const auto designation = designation_of(request);
-                if (!designation) return shared->fail(designation.error());
-                const auto fit = find_fit(*designation, **tables);
-                if (!fit) return shared->fail(fit.error());
-                read_fit_of_values(services, request, *fit,
-                                   [shared, tables = *tables, designation = *designation,
-                                    fit = *fit](Result<WriteStored> stored) {
-                                     if (!stored) return shared->fail(stored.error());
-                                     shared->answer({200, "application/json",
-                                                     fit_json(designation, fit, *tables, *stored)});
-                                   });
+                const auto designation = TRY_OR_FAIL(*shared, designation_of(request));
+                const auto fit = TRY_OR_FAIL(*shared, find_fit(designation, **tables));
+                read_fit_of_values(
+                    services, request, fit,
+                    [shared, tables = *tables, designation, fit](Result<WriteStored> stored) {
+                      if (!stored) return shared->fail(stored.error());
+                      shared->answer(
+                          {200, "application/json", fit_json(designation, fit, *tables, *stored)});
+                    });
               });
   };
 }
@@ -319,7 +317,7 @@ Result<Response> search_fits(const Request& request, const ToleranceTables& tabl
 std::string stored_clearance_schema() { return schema_of<StoredClearance>(Side::Answer); }
 
 void add_fits_routes(Routes& add) {
-  add("GET /v1/fits/{hole}/{shaft} getFit open", answer_fit(add, of_two_segments),
+  add("GET /v1/fits/{hole}/{shaft} getFit open 404 422", answer_fit(add, of_two_segments),
       {.summary = "Fit of a hole and a shaft",
        .description =
            "Limits of both and the clearances; interference is negative clearance. Filters "
@@ -328,16 +326,14 @@ void add_fits_routes(Routes& add) {
        .parameters = with_filters({path_parameter("hole", "Size and class of the hole: 25H7"),
                                    path_parameter("shaft", "Class of the shaft: g6")}),
        .query_access = "viewer",
-       .outcomes = {{.meaning = "The fit", .schema = "Fit"}},
-       .refusals = {404, 422}});
-  add("GET /v1/fits/{fit} getFitAsOne open", answer_fit(add, of_one_segment),
+       .outcomes = {{.meaning = "The fit", .schema = "Fit"}}});
+  add("GET /v1/fits/{fit} getFitAsOne open 404 422", answer_fit(add, of_one_segment),
       {.summary = "Fit of a hole and a shaft, written as one",
        .description = "One path segment, with an encoded slash: 25H7%2Fg6.",
        .parameters = with_filters({path_parameter("fit", "25H7/g6, the stroke percent-encoded")}),
        .query_access = "viewer",
-       .outcomes = {{.meaning = "The fit", .schema = "Fit"}},
-       .refusals = {404, 422}});
-  add("GET /v1/fits findFits open", ResponseCache::of_revision(add.cache, search_fits),
+       .outcomes = {{.meaning = "The fit", .schema = "Fit"}}});
+  add("GET /v1/fits findFits open 422", ResponseCache::of_revision(add.cache, search_fits),
       {.summary = "Fits whose clearances lie within bounds",
        .description = "The preferred fits of ISO 286-1 first, then the widest tolerances.",
        .parameters = {{.name = "nominal_mm",
@@ -355,8 +351,7 @@ void add_fits_routes(Routes& add) {
                       query("limit", http::Integer{.min = 1, .max = 1000},
                             "Maximum number of fits, 1 to 1000 (default: 100)"),
                       revision_parameter()},
-       .outcomes = {{.meaning = "The fits found", .schema = "FoundFits"}},
-       .refusals = {422}});
+       .outcomes = {{.meaning = "The fits found", .schema = "FoundFits"}}});
 }
 
 }  // namespace fitgauge::api

@@ -185,7 +185,7 @@ Result<std::string> press_fit(const JsonValue& body) {
 }  // namespace
 
 void add_limits_routes(Routes& add) {
-  add("GET /v1/limits/{designation} getLimits open",
+  add("GET /v1/limits/{designation} getLimits open 404 422",
       ResponseCache::of_revision(add.cache, limits_of_designation),
       {.summary = "Limits of size of a designation",
        .description = "Deviations and limits of a nominal size and tolerance class (ISO 286-1), of "
@@ -195,9 +195,9 @@ void add_limits_routes(Routes& add) {
                                      "25H7, 25 H7, Ø25H7; M10-6H, M10x1.25-6g; 25 ISO 2768-m, "
                                      "R2 ISO 2768-m; a comma may mark decimals"),
                       revision_parameter()},
-       .outcomes = {{.meaning = "Limits", .schema = "Limits"}},
-       .refusals = {404, 422}});
-  add("GET /v1/limits findLimits open", ResponseCache::of_revision(add.cache, limits_of_query),
+       .outcomes = {{.meaning = "Limits", .schema = "Limits"}}});
+  add("GET /v1/limits findLimits open 404 422",
+      ResponseCache::of_revision(add.cache, limits_of_query),
       {.summary = "Limits of size of a nominal size and a tolerance class",
        .parameters = {{.name = "nominal_mm",
                        .type = http::LengthIn{},
@@ -207,18 +207,17 @@ void add_limits_routes(Routes& add) {
                        .required = true,
                        .description = "H7, g6, ISO 2768-m or a custom tolerance class"},
                       revision_parameter()},
-       .outcomes = {{.meaning = "Limits", .schema = "Limits"}},
-       .refusals = {404, 422}});
+       .outcomes = {{.meaning = "Limits", .schema = "Limits"}}});
 }
 
 void add_gauges_routes(Routes& add) {
-  add("GET /v1/gauges/{designation} getLimitGauge open", ResponseCache::cached(add.cache, gauge),
+  add("GET /v1/gauges/{designation} getLimitGauge open 404 422",
+      ResponseCache::cached(add.cache, gauge),
       {.summary = "GO and NO-GO sizes of the limit gauges of a designation",
        .description = "New and worn, by ISO/R 1938:1971: holes of IT6 to IT16, shafts of IT5 to "
                       "IT16, up to 500 mm.",
        .parameters = {path_parameter("designation", "Size and class: 25H7")},
-       .outcomes = {{.meaning = "The gauges", .schema = "LimitGauge"}},
-       .refusals = {404, 422}});
+       .outcomes = {{.meaning = "The gauges", .schema = "LimitGauge"}}});
 }
 
 void add_press_fits_routes(Routes& add) {

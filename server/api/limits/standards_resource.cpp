@@ -139,7 +139,7 @@ void add_standards_routes(Routes& add) {
       {.summary = "The standards other than ISO 286 that the service has tables of",
        .description = "Their editions, tables and what the numbers were compared with.",
        .outcomes = {{.meaning = "The standards", .schema = "Standards"}}});
-  add("GET /v1/standards/{name} getStandard open", ResponseCache::cached(add.cache, rows),
+  add("GET /v1/standards/{name} getStandard open 404", ResponseCache::cached(add.cache, rows),
       {.summary = "The numbers of a standard: general tolerances, threads, keyways, bearings",
        .description = "Deviations in µm, nominal sizes in mm, angles in minutes; what the standard "
                       "has no number for is absent.",
@@ -148,8 +148,7 @@ void add_standards_routes(Routes& add) {
                             "Only rows that hold for this size: of a keyway the diameter of "
                             "its shaft"),
                       query("table", "Only this table")},
-       .outcomes = {{.meaning = "Rows of the table", .schema = "Standard"}},
-       .refusals = {404}});
+       .outcomes = {{.meaning = "Rows of the table", .schema = "Standard"}}});
 }
 
 }  // namespace fitgauge::api

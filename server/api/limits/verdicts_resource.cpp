@@ -185,7 +185,7 @@ Parameter parameter_of(const app::MeasurementField& field) {
 }  // namespace
 
 void add_verdicts_routes(Routes& add) {
-  add("GET /v1/verdicts/{designation} getVerdict open",
+  add("GET /v1/verdicts/{designation} getVerdict open 404 422",
       [&tables = add.services.tables](const Request& request, Responder responder) {
         tables_of(tables, request,
                   [&request, answer = answer_by(share(std::move(responder)))](
@@ -222,8 +222,7 @@ void add_verdicts_routes(Routes& add) {
             query("probability", http::Decimal{.scale = 6, .min = 500'000, .max = 999'999},
                   "Probability of conformance, at least 0.5 (default: 0.95)"),
             revision_parameter()},
-       .outcomes = {{.meaning = "The verdict", .schema = "Verdict"}},
-       .refusals = {404, 422}});
+       .outcomes = {{.meaning = "The verdict", .schema = "Verdict"}}});
   for (const app::MeasurementField& field : app::kThermalFields) {
     add.all.back().parameters.push_back(parameter_of(field));
   }

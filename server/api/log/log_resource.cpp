@@ -53,11 +53,11 @@ std::string proof_json(const app::LogService::Proof& proof) {
 }
 
 void prove(const Services& services, const Request& request, Responder responder) {
-  const auto id = services.measurements.parse_id(*request.text("id"));
-  if (!id) return responder.fail(id.error());
-  services.log.prove(*id, answer_with(std::move(responder), [](const auto& proof) {
-    return Response(200, "application/json", proof_json(proof)).with("Cache-Control", "no-store");
-  }));
+  const auto id = TRY_OR_FAIL(responder, services.measurements.parse_id(*request.text("id")));
+  services.log.prove(id, answer_with(std::move(responder), [](const auto& proof) {
+                       return Response(200, "application/json", proof_json(proof))
+                           .with("Cache-Control", "no-store");
+                     }));
 }
 
 /// A tree's head, keys and tiles.
@@ -83,7 +83,7 @@ void add_tree_routes(Routes& add) {
                                  : "C2SP vkeys, one a line, the newest first.",
        .response_types = {},
        .outcomes = {{.meaning = "Verifier keys", .media_types = {"text/plain"}}}});
-  add("GET " + path + "tile/{path*} get" + of + "Tile viewer", tile<of_changes>,
+  add("GET " + path + "tile/{path*} get" + of + "Tile viewer 404", tile<of_changes>,
       {.summary = "A tile of " + log,
        .description = of_changes
                           ? "An entry is a change as /v1/changes answers it, with the number of "
@@ -95,8 +95,7 @@ void add_tree_routes(Routes& add) {
            "path", "Level or `entries`, index, and `.p/` with its width if it is not full")},
        .response_types = {},
        .outcomes = {{.meaning = "Hashes, or entries with their lengths, as bytes",
-                     .media_types = {"application/octet-stream"}}},
-       .refusals = {404}});
+                     .media_types = {"application/octet-stream"}}}});
 }
 
 constexpr std::string_view kKinds[] = {"tables", "plan",  "budget",     "gauge",     "calibration",
@@ -135,13 +134,12 @@ void list_changes(const Services& services, const Request& request, Responder re
 void add_log_routes(Routes& add) {
   add_tree_routes<false>(add);
   add_tree_routes<true>(add);
-  add("GET /v1/measurements/{id}/proof getProof viewer", prove,
+  add("GET /v1/measurements/{id}/proof getProof viewer 404", prove,
       {.summary = "The proof that a measurement is in the log",
        .description = "Waits up to 1.1 s for a checkpoint that covers the measurement.",
        .parameters = {path_parameter("id", "Id of the record")},
        .outcomes = {{.meaning = "The path from its leaf to the root of a signed checkpoint",
-                     .schema = "Proof"}},
-       .refusals = {404}});
+                     .schema = "Proof"}}});
 }
 
 void add_changes_schemas(Schemas& schemas) {

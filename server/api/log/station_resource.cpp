@@ -67,7 +67,7 @@ void put_batch(const Services& services, const Request& request, Responder respo
 }  // namespace
 
 void add_intake_routes(Routes& add) {
-  add("PUT /v1/log/{origin}/{from} putLogBatch station", put_batch,
+  add("PUT /v1/log/{origin}/{from} putLogBatch station 403 409 422", put_batch,
       {.summary = "Take what a station forwards",
        .description =
            "NDJSON: a line with `checkpoint`, `key`, `hand_overs` and, of a branch, its `base`; up "
@@ -85,11 +85,10 @@ void add_intake_routes(Routes& add) {
        .body = {.use = http::BodyUse::Required,
                 .media_types = {"application/x-ndjson"},
                 .limit = kBatchLimit},
-       .outcomes =
-           {{.meaning =
-                 "All records are stored durably; the head of the station's log at this service",
-             .schema = "LogHead"}},
-       .refusals = {403, 409, 422}});
+       .outcomes = {
+           {.meaning =
+                "All records are stored durably; the head of the station's log at this service",
+            .schema = "LogHead"}}});
 }
 
 namespace {
@@ -106,7 +105,7 @@ void get_revisions(const Services& services, const Request& request, Responder r
 }  // namespace
 
 void add_revisions_routes(Routes& add) {
-  add("GET /v1/log/revisions getRevisions station", get_revisions,
+  add("GET /v1/log/revisions getRevisions station 403", get_revisions,
       {.summary = "Revisions that a centre sends to its stations",
        .description =
            "Tables with custom tolerance classes, keys of viewers and operators (as hashes), "
@@ -116,8 +115,7 @@ void add_revisions_routes(Routes& add) {
        .parameters = {query("station",
                             "Ending of the station's ids; its corrections are in the response"),
                       query("after", "`position` of the last response")},
-       .outcomes = {{.meaning = "Changed documents", .schema = "Revisions"}},
-       .refusals = {403}});
+       .outcomes = {{.meaning = "Changed documents", .schema = "Revisions"}}});
 }
 
 }  // namespace fitgauge::api

@@ -183,16 +183,15 @@ void correct(const SharedPosting& posting, const app::Measurement& original) {
                                     "a simulated measurement cannot be corrected: correct its "
                                     "program or setup, and run it again"});
   }
-  const auto tables = posting->services.tables.tables();
-  if (!tables) return posting->responder.fail(tables.error());
-  auto body = parse_json(posting->request.body());
-  if (!body) return posting->responder.fail(body.error());
-  auto batch = decode(
-      std::shared_ptr<const Sources>(new Sources{*std::move(body), app::KeptMeasurement(original),
-                                                 *tables, posting->services.gauges.book()}),
-      posting->services.clock.now(), caller_name(posting->request), posting->services.log.origin());
-  if (!batch) return posting->responder.fail(batch.error());
-  record(posting, *std::move(batch));
+  const auto tables = TRY_OR_FAIL(posting->responder, posting->services.tables.tables());
+  auto body = TRY_OR_FAIL(posting->responder, parse_json(posting->request.body()));
+  auto batch = TRY_OR_FAIL(posting->responder,
+                           decode(std::shared_ptr<const Sources>(
+                                      new Sources{std::move(body), app::KeptMeasurement(original),
+                                                  tables, posting->services.gauges.book()}),
+                                  posting->services.clock.now(), caller_name(posting->request),
+                                  posting->services.log.origin()));
+  record(posting, std::move(batch));
 }
 
 void find_and_correct(const SharedPosting& posting, const app::RecordName& id) {
@@ -208,10 +207,9 @@ void find_and_correct(const SharedPosting& posting, const app::RecordName& id) {
 }  // namespace
 
 void post_correction(const Services& services, const Request& request, Responder responder) {
-  const auto id = services.measurements.parse_id(*request.text("id"));
-  if (!id) return responder.fail(id.error());
+  const auto id = TRY_OR_FAIL(responder, services.measurements.parse_id(*request.text("id")));
   post_once(services, request, std::move(responder),
-            [id = *id](const SharedPosting& posting) { find_and_correct(posting, id); });
+            [id](const SharedPosting& posting) { find_and_correct(posting, id); });
 }
 
 }  // namespace fitgauge::api

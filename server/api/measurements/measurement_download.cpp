@@ -141,12 +141,11 @@ std::vector<Parameter> download_parameters() {
 void send_file(const Services& services, const Request& request, Responder responder,
                std::string_view media_type, app::MeasurementQuery query, std::int64_t after,
                std::optional<std::int64_t> limit) {
-  auto options = options_of(request, media_type);
-  if (!options) return responder.fail(options.error());
+  auto options = TRY_OR_FAIL(responder, options_of(request, media_type));
   const auto download = std::make_shared<Download>(
       Download{.services = services,
                .media_type = media_type,
-               .options = *std::move(options),
+               .options = std::move(options),
                .query = std::move(query),
                .after = after,
                .limit = limit ? std::optional(static_cast<std::size_t>(*limit)) : std::nullopt});

@@ -255,38 +255,36 @@ Result<app::MeasurementQuery> measurement_query(const Services& services, const 
 }
 
 void list_measurements(const Services& services, const Request& request, Responder responder) {
-  const auto cursor = cursor_of(services, request);
-  if (!cursor) return responder.fail(cursor.error());
+  const auto cursor = TRY_OR_FAIL(responder, cursor_of(services, request));
   const Form form = form_of(request);
   const auto limit = request.integer("limit");
-  auto query = measurement_query(services, request);
-  if (!query) return responder.fail(query.error());
-  query->as_of_id = cursor->as_of;
-  query->after = cursor->record;
+  auto query = TRY_OR_FAIL(responder, measurement_query(services, request));
+  query.as_of_id = cursor.as_of;
+  query.after = cursor.record;
   const auto notes = request.text("notes");
-  query->shows_notes = notes.has_value();
-  query->has_notes = notes == "only";
-  query->newest_first = request.text("sort") == "newest";
+  query.shows_notes = notes.has_value();
+  query.has_notes = notes == "only";
+  query.newest_first = request.text("sort") == "newest";
   if (const auto last = request.integer("last")) {
     if (limit || request.text("after")) {
       return responder.fail(
           {ErrorCode::QueryInvalid, "last is a list of one page: remove limit and after", "last"});
     }
-    query->last = static_cast<std::size_t>(*last);
+    query.last = static_cast<std::size_t>(*last);
   }
   if (is_file(form)) {
     return send_file(services, request, std::move(responder),
-                     kForms.at(static_cast<std::size_t>(form)).second, *std::move(query),
-                     cursor->after, limit);
+                     kForms.at(static_cast<std::size_t>(form)).second, std::move(query),
+                     cursor.after, limit);
   }
-  if (!limit && !query->last && form != Form::Json) {
-    return std::make_shared<MeasurementStream>(services.measurements, *std::move(query),
-                                               cursor->after, form)
+  if (!limit && !query.last && form != Form::Json) {
+    return std::make_shared<MeasurementStream>(services.measurements, std::move(query),
+                                               cursor.after, form)
         ->answer(std::move(responder));
   }
   auto rows = std::make_shared<std::string>();
   services.measurements.list(
-      *query, cursor->after, static_cast<std::size_t>(limit.value_or(kDefaultLimit)),
+      query, cursor.after, static_cast<std::size_t>(limit.value_or(kDefaultLimit)),
       [rows, form](const app::Measurement& measurement) {
         if (form == Form::Json && !rows->empty()) *rows += ',';
         append_row(*rows, form, measurement);

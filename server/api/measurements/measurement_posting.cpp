@@ -39,16 +39,14 @@ BatchContext context_of(const Posting& posting, const Basis& basis) {
 }
 
 void judge_and_record(const SharedPosting& posting) {
-  const auto basis = basis_of(posting->services);
-  if (!basis) return posting->responder.fail(basis.error());
+  const auto basis = TRY_OR_FAIL(posting->responder, basis_of(posting->services));
   const Request& request = posting->request;
   MeasurementBatch batch;
-  const auto decoded = decode_measurements(request.body(), request.media_type(),
-                                           context_of(*posting, *basis), batch);
-  if (!decoded) return posting->responder.fail(decoded.error());
+  TRY_OR_FAIL(posting->responder, decode_measurements(request.body(), request.media_type(),
+                                                      context_of(*posting, basis), batch));
   // The class names of the rows are views of the tables, the names of budgets views of the gauges.
   batch.texts = std::make_shared<std::pair<std::shared_ptr<const void>, Basis>>(
-      std::move(batch.texts), *basis);
+      std::move(batch.texts), basis);
   record(posting, std::move(batch));
 }
 

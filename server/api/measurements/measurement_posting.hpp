@@ -1,5 +1,6 @@
 #pragma once
 
+#include "api/handlers.hpp"
 #include "api/wire/request_facts.hpp"
 #include "record/measurement_batch.hpp"
 #include "record/verdict_codec.hpp"

@@ -12,20 +12,18 @@ namespace {
 constexpr std::size_t kLargestRows = std::size_t{32} << 20;
 
 void find_measurement(const Services& services, const Request& request, Responder responder) {
-  const auto id = services.measurements.parse_id(*request.text("id"));
-  if (!id) return responder.fail(id.error());
+  const auto id = TRY_OR_FAIL(responder, services.measurements.parse_id(*request.text("id")));
   auto body = std::make_shared<std::string>();
   services.measurements.find(
-      *id, [body](const app::Measurement& measurement) { app::append_record(*body, measurement); },
+      id, [body](const app::Measurement& measurement) { app::append_record(*body, measurement); },
       answer_with(std::move(responder),
                   [body](std::int64_t) { return json_response(std::move(*body)); }));
 }
 
 void summarise(const Services& services, const Request& request, Responder responder) {
-  const auto query = measurement_query(services, request);
-  if (!query) return responder.fail(query.error());
+  const auto query = TRY_OR_FAIL(responder, measurement_query(services, request));
   const std::string_view group_by = request.text("group_by").value_or("characteristic");
-  services.measurements.summary(*query, group_by,
+  services.measurements.summary(query, group_by,
                                 answer_with(std::move(responder), [group_by](const auto& groups) {
                                   return json_response(summary_json(group_by, groups));
                                 }));
@@ -71,7 +69,7 @@ std::vector<Parameter> summary_parameters() {
 }  // namespace
 
 void add_measurements_routes(Routes& add) {
-  add("POST /v1/measurements postMeasurements operator", post_measurements,
+  add("POST /v1/measurements postMeasurements operator 404 409", post_measurements,
       {.summary = "Judge and store measurements, all or none",
        .description = "201 means durable. An Idempotency-Key makes repeats safe.",
        .parameters = posting_parameters(),
@@ -82,16 +80,14 @@ void add_measurements_routes(Routes& add) {
        .outcomes = {{.status = 201,
                      .meaning = "Stored for good: the record of one, a count of several, or all "
                                 "records with return=representation; no body with return=minimal",
-                     .schema = "Recorded"}},
-       .refusals = {404, 409}});
-  add("POST /v1/measurements/{id}/corrections correctMeasurement operator", post_correction,
+                     .schema = "Recorded"}}});
+  add("POST /v1/measurements/{id}/corrections correctMeasurement operator 404 409", post_correction,
       {.summary = "Correct a measurement by a new one that names it",
        .description = "The body has measured_mm and reason; fields it leaves out are taken over. "
                       "The old record stays.",
        .parameters = posting_parameters({path_parameter("id", "The measurement to correct")}),
        .body = json_body("Correction"),
-       .outcomes = {{.status = 201, .meaning = "The new record", .schema = "Recorded"}},
-       .refusals = {404, 409}});
+       .outcomes = {{.status = 201, .meaning = "The new record", .schema = "Recorded"}}});
   add("GET /v1/measurements listMeasurements viewer", list_measurements,
       {.summary = "List measurements in storage order",
        .description = "All pages show the state at the first one. CSV and NDJSON without `limit` "
@@ -105,11 +101,10 @@ void add_measurements_routes(Routes& add) {
       {.summary = "Counts and statistics by group",
        .parameters = summary_parameters(),
        .outcomes = {{.meaning = "The groups", .schema = "Summary"}}});
-  add("GET /v1/measurements/{id} getMeasurement viewer", find_measurement,
+  add("GET /v1/measurements/{id} getMeasurement viewer 404", find_measurement,
       {.summary = "One measurement",
        .parameters = {path_parameter("id", "Id of the record")},
-       .outcomes = {{.meaning = "The record", .schema = "Measurement"}},
-       .refusals = {404}});
+       .outcomes = {{.meaning = "The record", .schema = "Measurement"}}});
 }
 
 }  // namespace fitgauge::api

@@ -36,30 +36,27 @@ Result<app::Note> read_note(std::string_view text) {
 }
 
 void add_note(const SharedPosting& posting, const app::RecordName& measurement) {
-  auto note = read_note(posting->request.body());
-  if (!note) return posting->responder.fail(note.error());
-  note->received_at = posting->services.clock.now();
-  note->caller = caller_text(posting->request);
+  auto note = TRY_OR_FAIL(posting->responder, read_note(posting->request.body()));
+  note.received_at = posting->services.clock.now();
+  note.caller = caller_text(posting->request);
   posting->services.measurements.add_note(
-      measurement, *std::move(note), posting->scope, [posting](Result<app::Answer> answer) {
+      measurement, std::move(note), posting->scope, [posting](Result<app::Answer> answer) {
         if (!answer) return posting->responder.fail(answer.error());
         posting->responder.answer(api::response_of(*std::move(answer)));
       });
 }
 
 void post_note(const Services& services, const Request& request, Responder responder) {
-  const auto id = services.measurements.parse_id(*request.text("id"));
-  if (!id) return responder.fail(id.error());
+  const auto id = TRY_OR_FAIL(responder, services.measurements.parse_id(*request.text("id")));
   post_once(services, request, std::move(responder),
-            [id = *id](const SharedPosting& posting) { add_note(posting, id); });
+            [id](const SharedPosting& posting) { add_note(posting, id); });
 }
 
 void list_notes(const Services& services, const Request& request, Responder responder) {
-  const auto id = services.measurements.parse_id(*request.text("id"));
-  if (!id) return responder.fail(id.error());
-  services.measurements.list_notes(*id, answer_with(std::move(responder), [](const auto& notes) {
-    return json_response(body_json(NotesAnswer{notes}));
-  }));
+  const auto id = TRY_OR_FAIL(responder, services.measurements.parse_id(*request.text("id")));
+  services.measurements.list_notes(id, answer_with(std::move(responder), [](const auto& notes) {
+                                     return json_response(body_json(NotesAnswer{notes}));
+                                   }));
 }
 
 /// The form of the entries of a catalogue: each once, so that a choice is one.
@@ -131,19 +128,17 @@ void add_note_schemas(Schemas& schemas) {
 }
 
 void add_notes_routes(Routes& add) {
-  add("POST /v1/measurements/{id}/notes addNote operator", post_note,
+  add("POST /v1/measurements/{id}/notes addNote operator 404 409", post_note,
       {.summary = "Add a note to a measurement: its cause, the action, a text",
        .description = "Notes are never changed and are not part of the record. An Idempotency-Key "
                       "makes repeats safe.",
        .parameters = {measurement_parameter(), idempotency_parameter()},
        .body = json_body("NewNote"),
-       .outcomes = {{.status = 201, .meaning = "Stored for good", .schema = "Note"}},
-       .refusals = {404, 409}});
-  add("GET /v1/measurements/{id}/notes listNotes viewer", list_notes,
+       .outcomes = {{.status = 201, .meaning = "Stored for good", .schema = "Note"}}});
+  add("GET /v1/measurements/{id}/notes listNotes viewer 404", list_notes,
       {.summary = "The notes on a measurement",
        .parameters = {measurement_parameter()},
-       .outcomes = {{.meaning = "Oldest first", .schema = "Notes"}},
-       .refusals = {404}});
+       .outcomes = {{.meaning = "Oldest first", .schema = "Notes"}}});
 }
 
 void add_catalogues_routes(Routes& add) { add_document_routes(add, kCatalogues); }

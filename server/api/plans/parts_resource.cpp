@@ -211,7 +211,7 @@ void find_plan_of(const Services& services, std::string_view part,
 void add_parts_schemas(Schemas& schemas) { schemas.push_back(answer_schema<Part>("Part")); }
 
 void add_parts_routes(Routes& add) {
-  add("GET /v1/parts/{part*} getPart viewer", get_part,
+  add("GET /v1/parts/{part*} getPart viewer 404", get_part,
       {.summary = "A part: its verdict, what is missing, its values and open reactions",
        .description = "The value of each characteristic that was measured last, with corrections; "
                       "the verdict is the worst of them. A value without a characteristic is "
@@ -221,8 +221,7 @@ void add_parts_routes(Routes& add) {
                       "measured characteristic; without a plan nothing is missing.",
        .parameters = {path_parameter("part", "part_id of its measurements"),
                       query("plan", "Part number of the plan to hold it against")},
-       .outcomes = {{.meaning = "The part", .schema = "Part"}},
-       .refusals = {404}});
+       .outcomes = {{.meaning = "The part", .schema = "Part"}}});
 }
 
 }  // namespace fitgauge::api

@@ -301,7 +301,7 @@ void add_plan_schemas(Schemas& schemas) {
 
 void add_plans_routes(Routes& add) {
   add_document_routes(add, kPlans);
-  add("POST /v1/drawings readDrawing viewer", read_drawing,
+  add("POST /v1/drawings readDrawing viewer 422", read_drawing,
       {.summary = "Read the sizes of a STEP drawing",
        .description = "AP242, AP203 or AP214 with product manufacturing information. Nothing is "
                       "stored: PUT the file to /v1/plans/{part} to make a plan of it.",
@@ -311,9 +311,8 @@ void add_plans_routes(Routes& add) {
                 .limit = kLongestDrawing,
                 .spools = true,
                 .when_too_large = "`fitgauge plan from FILE` reads larger drawings"},
-       .outcomes = {{.meaning = "Sizes that were read, and content that was not",
-                     .schema = "Drawing"}},
-       .refusals = {422}});
+       .outcomes = {
+           {.meaning = "Sizes that were read, and content that was not", .schema = "Drawing"}}});
 }
 
 }  // namespace fitgauge::api

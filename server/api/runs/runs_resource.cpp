@@ -24,15 +24,15 @@ void answer(Responder& responder, Result<Response> response) {
 template <class Answer>
 void with_run_json(const Services& services, const Request& request, Responder responder,
                    const Answer& answer_of) {
-  const auto id = id_of(services, request);
-  if (!id) return responder.fail(id.error());
-  if (const auto active = services.runs.active(*id)) {
+  const auto id = TRY_OR_FAIL(responder, id_of(services, request));
+  if (const auto active = services.runs.active(id)) {
     const std::string json = unfinished_run_json(*active);
     if (!active->is_being_stored()) return answer(responder, answer_of(json));
   }
-  services.runs.find(*id, answer_with(std::move(responder), [answer_of](app::StoredRun run) {
-    return answer_of(run.report.empty() ? unfinished_run_json(run) : std::move(run.report));
-  }));
+  services.runs.find(
+      id, answer_with(std::move(responder), [answer_of](app::StoredRun run) {
+        return answer_of(run.report.empty() ? unfinished_run_json(run) : std::move(run.report));
+      }));
 }
 
 void get_run(const Services& services, const Request& request, Responder responder) {
@@ -49,11 +49,10 @@ void get_parameters(const Services& services, const Request& request, Responder 
 }
 
 void get_request(const Services& services, const Request& request, Responder responder) {
-  const auto id = id_of(services, request);
-  if (!id) return responder.fail(id.error());
-  services.runs.find(*id, answer_with(std::move(responder), [](app::StoredRun run) {
-    return json_response(std::move(run.request));
-  }));
+  const auto id = TRY_OR_FAIL(responder, id_of(services, request));
+  services.runs.find(id, answer_with(std::move(responder), [](app::StoredRun run) {
+                       return json_response(std::move(run.request));
+                     }));
 }
 
 /// Media types that a browser may show; everything else is text.
@@ -64,9 +63,8 @@ std::string media_type_of(const std::string& path) {
 }
 
 void get_run_file(const Services& services, const Request& request, Responder responder) {
-  const auto id = id_of(services, request);
-  if (!id) return responder.fail(id.error());
-  services.runs.file(*id, std::string(*request.text("name")),
+  const auto id = TRY_OR_FAIL(responder, id_of(services, request));
+  services.runs.file(id, std::string(*request.text("name")),
                      answer_with(std::move(responder), [](app::RunService::File file) {
                        return foreign_bytes(media_type_of(file.path), std::move(file.bytes));
                      }));
@@ -93,28 +91,27 @@ class TraceStream final : public http::BodyStream {
 };
 
 void get_trace(const Services& services, const Request& request, Responder responder) {
-  const auto id = id_of(services, request);
-  if (!id) return responder.fail(id.error());
+  const auto id = TRY_OR_FAIL(responder, id_of(services, request));
   const bool csv = wants_csv(request);
   const bool packed = !csv && request.prefers_gzip();
-  services.runs.trace(*id, answer_with(std::move(responder), [csv, packed](app::TraceReader trace) {
-    const char* const type = csv ? "text/csv; charset=utf-8; header=present" : "application/json";
-    if (auto bytes = packed ? trace.take_packed() : std::nullopt) {
-      return Response(200, type, *std::move(bytes))
-          .with("Content-Encoding", "gzip")
-          .with("Vary", "Accept");
-    }
-    const http::StreamedBody body{std::make_shared<TraceStream>(std::move(trace), csv)};
-    return Response(200, type, body).with("Vary", "Accept");
-  }));
+  services.runs.trace(
+      id, answer_with(std::move(responder), [csv, packed](app::TraceReader trace) {
+        const char* const type =
+            csv ? "text/csv; charset=utf-8; header=present" : "application/json";
+        if (auto bytes = packed ? trace.take_packed() : std::nullopt) {
+          return Response(200, type, *std::move(bytes))
+              .with("Content-Encoding", "gzip")
+              .with("Vary", "Accept");
+        }
+        const http::StreamedBody body{std::make_shared<TraceStream>(std::move(trace), csv)};
+        return Response(200, type, body).with("Vary", "Accept");
+      }));
 }
 
 void get_events(const Services& services, const Request& request, Responder responder) {
-  const auto id = id_of(services, request);
-  if (!id) return responder.fail(id.error());
+  const auto id = TRY_OR_FAIL(responder, id_of(services, request));
   const auto last = last_event_id(request);
-  services.runs.follow(*id,
-                       answer_with(std::move(responder), [last](app::RunService::Followed run) {
+  services.runs.follow(id, answer_with(std::move(responder), [last](app::RunService::Followed run) {
                          return run.active ? run_events(std::move(run.active), last)
                                            : finished_run_events(run.stored.report, last);
                        }));
@@ -122,9 +119,8 @@ void get_events(const Services& services, const Request& request, Responder resp
 
 /// Responds when the run has ended, so that its status shows whether the cancellation was in time.
 void cancel_run(const Services& services, const Request& request, Responder responder) {
-  const auto id = id_of(services, request);
-  if (!id) return responder.fail(id.error());
-  services.runs.cancel(*id, [shared = share(std::move(responder))](const Result<void>& cancelled) {
+  const auto id = TRY_OR_FAIL(responder, id_of(services, request));
+  services.runs.cancel(id, [shared = share(std::move(responder))](const Result<void>& cancelled) {
     if (!cancelled) return shared->fail(cancelled.error());
     shared->answer(Response(204));
   });
@@ -134,9 +130,8 @@ void list_runs(const Services& services, const Request& request, Responder respo
   app::RunQuery query;
   if (const auto status = request.text("status")) query.state = app::run_state_from_word(*status);
   if (const auto program = request.text("program")) {
-    const auto path = app::parse_file_path(*program);
-    if (!path) return responder.fail(path.error());
-    query.program = path->text();
+    const auto path = TRY_OR_FAIL(responder, app::parse_file_path(*program));
+    query.program = path.text();
   }
   std::optional<std::int64_t> after;
   if (const auto cursor = request.text("after")) {
@@ -172,45 +167,40 @@ void add_reading_routes(Routes& add) {
                             "Maximum number of runs of a page (default: 100)"),
                       query("after", "The cursor `next` of the page before")},
        .outcomes = {{.meaning = "A page", .schema = "RunList"}}});
-  add("GET /v1/runs/{id} getRun viewer", get_run,
+  add("GET /v1/runs/{id} getRun viewer 404", get_run,
       {.summary = "One run with all its results",
        .parameters = {kId},
-       .outcomes = {{.meaning = "The run", .schema = "Run"}},
-       .refusals = {404}});
-  add("GET /v1/runs/{id}/parameters getRunParameters viewer", get_parameters,
+       .outcomes = {{.meaning = "The run", .schema = "Run"}}});
+  add("GET /v1/runs/{id}/parameters getRunParameters viewer 404", get_parameters,
       {.summary = "The parameters that are defined at the end",
        .parameters = {kId},
-       .outcomes = {{.meaning = "Sorted by name", .schema = "RunParameters"}},
-       .refusals = {404}});
-  add("GET /v1/runs/{id}/request getRunRequest viewer", get_request,
+       .outcomes = {{.meaning = "Sorted by name", .schema = "RunParameters"}}});
+  add("GET /v1/runs/{id}/request getRunRequest viewer 404", get_request,
       {.summary = "Request of the run with its setup in full; it can be posted again",
        .parameters = {kId},
-       .outcomes = {{.meaning = "The order", .schema = "RunOrder"}},
-       .refusals = {404}});
-  add("GET /v1/runs/{id}/trace getRunTrace viewer", get_trace,
+       .outcomes = {{.meaning = "The order", .schema = "RunOrder"}}});
+  add("GET /v1/runs/{id}/trace getRunTrace viewer 404 409", get_trace,
       {.summary = "Every move with the block that commanded it",
        .parameters = {kId, csv_or_json()},
        .response_types = {"application/json", "text/csv"},
-       .outcomes = {{.meaning = "The moves", .schema = "Trace"}},
-       .refusals = {404, 409}});
-  add("GET /v1/runs/{id}/files/{name} getRunFile viewer", get_run_file,
+       .outcomes = {{.meaning = "The moves", .schema = "Trace"}}});
+  add("GET /v1/runs/{id}/files/{name} getRunFile viewer 404 409", get_run_file,
       {.summary = "A file the run has written, by its name or path",
        .parameters = {kId,
                       path_parameter("name",
                                      "TCHPR421.TXT or, of several files of that name, the path "
                                      "(b%2FTCHPR421.TXT), without regard to case")},
        .response_types = {},
-       .outcomes = {{.meaning = "Bytes of the file", .media_types = {"text/plain", "text/html"}}},
-       .refusals = {404, 409}});
-  add("GET /v1/runs/{id}/events followRun viewer", get_events,
+       .outcomes = {{.meaning = "Bytes of the file", .media_types = {"text/plain", "text/html"}}}});
+  add("GET /v1/runs/{id}/events followRun viewer 404", get_events,
       {.summary = "Server-Sent Events: progress, output, end",
        .description = "The id of an event is the number of lines told so far, or `end`: a reader "
                       "that comes back gets what follows, and 204 after `end`.",
        .parameters = {kId},
        .response_types = {std::string(kEventStreamType)},
-       .outcomes = {{.meaning = "output, progress, end", .schema = "RunEvent"},
-                    {.status = 204, .meaning = "The run has ended, and all its events were read"}},
-       .refusals = {404}});
+       .outcomes = {
+           {.meaning = "output, progress, end", .schema = "RunEvent"},
+           {.status = 204, .meaning = "The run has ended, and all its events were read"}}});
   add_last_event_id(add.all.back().parameters);
 }
 
@@ -218,7 +208,7 @@ void add_reading_routes(Routes& add) {
 
 void add_runs_routes(Routes& add) {
   add_reading_routes(add);
-  add("POST /v1/runs postRun operator", post_run,
+  add("POST /v1/runs postRun operator 409", post_run,
       {.summary = "Run a program on a simulated machine",
        .description = "201 with the run when it is over, or 202 at once with "
                       "`Prefer: respond-async`. A program with errors is refused with all of them.",
@@ -230,13 +220,11 @@ void add_runs_routes(Routes& add) {
                        .description = "The response does not wait for the end"}},
        .body = json_body("RunOrder"),
        .outcomes = {{.status = 201, .meaning = "The finished run", .schema = "Run"},
-                    {.status = 202, .meaning = "Run queued", .schema = "Run"}},
-       .refusals = {409}});
-  add("DELETE /v1/runs/{id} cancelRun operator", cancel_run,
+                    {.status = 202, .meaning = "Run queued", .schema = "Run"}}});
+  add("DELETE /v1/runs/{id} cancelRun operator 404 409", cancel_run,
       {.summary = "Cancel a run that is queued or under way",
        .parameters = {kId},
-       .outcomes = {{.status = 204, .meaning = "Run cancelled"}},
-       .refusals = {404, 409}});
+       .outcomes = {{.status = 204, .meaning = "Run cancelled"}}});
 }
 
 }  // namespace fitgauge::api

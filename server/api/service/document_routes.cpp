@@ -92,17 +92,16 @@ void write(const Services& services, const KindOfDocument& kind, std::string nam
 
 void put(const Services& services, const KindOfDocument& kind, const Request& request,
          Responder responder) {
-  auto name = name_to_write(kind, request);
-  if (!name) return responder.fail(name.error());
+  auto name = TRY_OR_FAIL(responder, name_to_write(kind, request));
   const SharedResponder shared = share(std::move(responder));
   const bool is_other = !kind.other_type.empty() && request.media_type() == kind.other_type;
   JobPool& pool = kind.is_figure || is_other ? services.jobs.figures : services.jobs.orders;
   pool.run(
-      [&services, &kind, &request, is_other, name = *name] {
+      [&services, &kind, &request, is_other, name] {
         return is_other ? kind.check_other(services, name, request.file_body())
                         : kind.check(services, name, request.body());
       },
-      [&services, &kind, &request, name = *name, shared](Result<CheckedDocument> checked) {
+      [&services, &kind, &request, name, shared](Result<CheckedDocument> checked) {
         if (!checked) return shared->fail(checked.error());
         write(services, kind, name, *std::move(checked), request, shared);
       });
@@ -184,29 +183,28 @@ void add_document_routes(Routes& add, const KindOfDocument& kind) {
       of_kind(add.services, kind, list),
       {.summary = fmt::format("The {}", kind.many),
        .outcomes = {{.meaning = "Sorted by name", .schema = std::string(kind.list_schema)}}});
-  add(fmt::format("GET {} get{} viewer", pattern, kind.operation), of_kind(add.services, kind, get),
+  add(fmt::format("GET {} get{} viewer 404 412", pattern, kind.operation),
+      of_kind(add.services, kind, get),
       {.summary = fmt::format("Read {} as it was stored", kind.one),
        .parameters = with_preconditions(name),
-       .outcomes = {{.meaning = "Document as stored", .schema = schema}},
-       .refusals = {404, 412}});
-  add(fmt::format("PUT {} put{} admin", pattern, kind.operation), of_kind(add.services, kind, put),
+       .outcomes = {{.meaning = "Document as stored", .schema = schema}}});
+  add(fmt::format("PUT {} put{} admin 412", pattern, kind.operation),
+      of_kind(add.services, kind, put),
       {.summary = fmt::format("Store {}: {}", kind.one, kind.contents),
        .parameters = with_preconditions(name),
        .body = json_body(std::string(kind.body_schema)),
        .outcomes = {{.meaning = "Replaced", .schema = answered},
-                    {.status = 201, .meaning = "Created", .schema = answered}},
-       .refusals = {412}});
+                    {.status = 201, .meaning = "Created", .schema = answered}}});
   if (!kind.other_type.empty()) {
     add.all.back().body.media_types.emplace_back(kind.other_type);
     add.all.back().body.limit = kind.longest_other;
     add.all.back().body.spools = true;
   }
-  add(fmt::format("DELETE {} delete{} admin", pattern, kind.operation),
+  add(fmt::format("DELETE {} delete{} admin 404 409 412", pattern, kind.operation),
       of_kind(add.services, kind, remove),
       {.summary = fmt::format("Delete {}", kind.one),
        .parameters = with_preconditions(name),
-       .outcomes = {{.status = 204, .meaning = "Deleted"}},
-       .refusals = {404, 409, 412}});
+       .outcomes = {{.status = 204, .meaning = "Deleted"}}});
 }
 
 }  // namespace fitgauge::api

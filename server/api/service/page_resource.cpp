@@ -59,15 +59,14 @@ void add_page_routes(Routes& add) {
   const auto files = std::make_shared<const PageFiles>(prepare_files());
   add("GET / getPage open", [files](const Request&) { return answer(*files, kEntry); },
       {.summary = "The page", .response_types = {"text/html"}, .outcomes = {{.meaning = "HTML"}}});
-  add("GET /web/{path*} getPageFile open",
+  add("GET /web/{path*} getPageFile open 404",
       [files](const Request& request) { return answer(*files, *request.text("path")); },
       {.summary = "A file of the page",
        .parameters = {path_parameter("path", "app.js")},
        .response_types = {},
        .outcomes = {{.meaning = "Bytes of the file",
                      .media_types = {"text/html", "text/css", "text/javascript", "image/svg+xml",
-                                     "text/plain"}}},
-       .refusals = {404}});
+                                     "text/plain"}}}});
 }
 
 }  // namespace fitgauge::api

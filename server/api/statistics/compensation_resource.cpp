@@ -192,9 +192,8 @@ class OffsetStream final : public CommitStream {
 };
 
 void propose(const Services& services, const Request& request, Responder responder) {
-  auto query = measurement_query(services, request);
-  if (!query) return responder.fail(query.error());
-  OffsetOrder order{*std::move(query), request.length("target_mm")};
+  auto query = TRY_OR_FAIL(responder, measurement_query(services, request));
+  OffsetOrder order{std::move(query), request.length("target_mm")};
   order.query.newest_first = true;
   if (const auto given = request.integer("cost"))
     order.cost = static_cast<double>(*given) / kMillionths;
@@ -231,7 +230,7 @@ void add_compensation_routes(Routes& add) {
   parameters.push_back(
       query("cost", http::Decimal{.scale = 6, .min = 1, .max = 1'000'000'000},
             "Cost of a correction in parts (default: 0.1); a larger cost gives fewer corrections"));
-  add("GET /v1/measurements/compensation proposeOffset viewer", propose,
+  add("GET /v1/measurements/compensation proposeOffset viewer 422", propose,
       {.summary = "The next offset of a machine",
        .description = "A proposal from the newest 500 values that match; nothing moves a machine. "
                       "Select one characteristic, and the machine or the tool that makes it. As "
@@ -240,8 +239,7 @@ void add_compensation_routes(Routes& add) {
                       "that the values give none until the next one.",
        .parameters = std::move(parameters),
        .response_types = {"application/json", std::string(kEventStreamType)},
-       .outcomes = {{.meaning = "Result", .schema = "Compensation"}},
-       .refusals = {422}});
+       .outcomes = {{.meaning = "Result", .schema = "Compensation"}}});
 }
 
 void add_compensation_schemas(Schemas& schemas) {

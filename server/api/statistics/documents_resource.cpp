@@ -114,11 +114,9 @@ void members(auto& v, const Calibration& calibration) {
 namespace {
 
 void record_calibration(const Services& services, const Request& request, Responder responder) {
-  const auto body = parse_json(request.body());
-  if (!body) return responder.fail(body.error());
-  auto order = read_whole<CalibrationOrder>(*body);
-  if (!order) return responder.fail(order.error());
-  Calibration& given = order->given;
+  const auto body = TRY_OR_FAIL(responder, parse_json(request.body()));
+  auto order = TRY_OR_FAIL(responder, read_whole<CalibrationOrder>(body));
+  Calibration& given = order.given;
   given.recorded_at = services.clock.now();
   given.caller = caller_text(request);
   const std::string gauge(*request.text("name"));
@@ -299,21 +297,19 @@ void add_documents_routes(Routes& add) {
   add_document_routes(add, kGauges);
   add_document_routes(add, kStudies);
   const Parameter name = path_parameter("name", "Name of the gauge in use");
-  add("POST /v1/gauges-in-use/{name}/calibrations recordCalibration admin", record_calibration,
+  add("POST /v1/gauges-in-use/{name}/calibrations recordCalibration admin 404", record_calibration,
       {.summary = "Record a calibration of a gauge in use, or that it is blocked",
        .description = "A condition is in force from its beginning to the beginning of the next "
                       "one. A condition with the same beginning replaces it.",
        .parameters = {name},
        .body = json_body("NewCalibration"),
-       .outcomes = {{.meaning = "Replaced a calibration with the same `from`",
-                     .schema = "Calibration"},
-                    {.status = 201, .meaning = "Recorded", .schema = "Calibration"}},
-       .refusals = {404}});
-  add("GET /v1/gauges-in-use/{name}/calibrations listCalibrations viewer", list_calibrations,
+       .outcomes = {
+           {.meaning = "Replaced a calibration with the same `from`", .schema = "Calibration"},
+           {.status = 201, .meaning = "Recorded", .schema = "Calibration"}}});
+  add("GET /v1/gauges-in-use/{name}/calibrations listCalibrations viewer 404", list_calibrations,
       {.summary = "The calibrations of a gauge in use",
        .parameters = {name},
-       .outcomes = {{.meaning = "Sorted by `from`", .schema = "Calibrations"}},
-       .refusals = {404}});
+       .outcomes = {{.meaning = "Sorted by `from`", .schema = "Calibrations"}}});
 }
 
 }  // namespace fitgauge::api

@@ -19,11 +19,10 @@ using Figure = std::function<Result<std::string>(ValueSelection&&)>;
 /// Reads the values of the filters and computes from them; both may be slow.
 void answer_with(const Services& services, const Request& request, Responder responder,
                  Figure figure) {
-  auto query = measurement_query(services, request);
-  if (!query) return responder.fail(query.error());
-  if (const auto last = request.integer("last")) query->last = static_cast<std::size_t>(*last);
+  auto query = TRY_OR_FAIL(responder, measurement_query(services, request));
+  if (const auto last = request.integer("last")) query.last = static_cast<std::size_t>(*last);
   services.jobs.figures.run(
-      [&services, query = *std::move(query), figure = std::move(figure)]() -> Result<Response> {
+      [&services, query = std::move(query), figure = std::move(figure)]() -> Result<Response> {
         ValueSelection selection;
         TRY(selection.read(services.measurements, query));
         return json_response(figure(std::move(selection)));
@@ -119,10 +118,9 @@ Result<StoredChartPlan> chart_plan(const Request& request) {
 }
 
 void find_chart(const Services& services, const Request& request, Responder responder) {
-  auto stored = chart_plan(request);
-  if (!stored) return responder.fail(stored.error());
+  auto stored = TRY_OR_FAIL(responder, chart_plan(request));
   answer_with(services, request, std::move(responder),
-              [stored = *std::move(stored)](ValueSelection&& selection) -> Result<std::string> {
+              [stored = std::move(stored)](ValueSelection&& selection) -> Result<std::string> {
                 metrology::ChartPlan plan = stored.plan;
                 auto selected = TRY(std::move(selection).selected(stored.ignores_subgroups));
                 if (!stored.has_kind && selected.data.size > 1) plan.kind = ChartKind::XbarR;
@@ -207,7 +205,7 @@ void Points::write(JsonWriter& json, const std::vector<double>& points) const {
 }
 
 void add_stored_statistics_routes(Routes& add) {
-  add("GET /v1/measurements/capability assessStoredCapability viewer", find_capability,
+  add("GET /v1/measurements/capability assessStoredCapability viewer 422", find_capability,
       {.summary = "Capability and performance of stored values",
        .description = "Against the limits in the records, which must be the same in all.",
        .parameters = with_stored_filters(
@@ -215,14 +213,12 @@ void add_stored_statistics_routes(Routes& add) {
                   "Target of cpm (default: the middle of the limits)"),
             query("confidence", http::Decimal{.scale = kScale, .min = 1, .max = 999'999},
                   "Confidence of the intervals (default: 0.95)")}),
-       .outcomes = {{.meaning = "Computed figures", .schema = "StoredCapability"}},
-       .refusals = {422}});
-  add("GET /v1/measurements/chart makeStoredControlChart viewer", find_chart,
+       .outcomes = {{.meaning = "Computed figures", .schema = "StoredCapability"}}});
+  add("GET /v1/measurements/chart makeStoredControlChart viewer 422", find_chart,
       {.summary = "Control chart of stored values",
        .description = "In storage order; a violation names its measurement or subgroup.",
        .parameters = chart_parameters(),
-       .outcomes = {{.meaning = "Computed figures", .schema = "StoredControlChart"}},
-       .refusals = {422}});
+       .outcomes = {{.meaning = "Computed figures", .schema = "StoredControlChart"}}});
 }
 
 }  // namespace fitgauge::api

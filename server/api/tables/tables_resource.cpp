@@ -177,15 +177,12 @@ app::TableCatalog::Condition condition_of(const Request& request) {
 
 void put_column(const Services& services, Feature feature, const Request& request,
                 Responder responder) {
-  auto name = column_name(request);
-  if (!name) return responder.fail(name.error());
-  const auto parsed = parse_json(request.body());
-  if (!parsed) return responder.fail(parsed.error());
-  auto column = read_whole<CustomRows>(*parsed);
-  if (!column) return responder.fail(column.error());
+  auto name = TRY_OR_FAIL(responder, column_name(request));
+  const auto parsed = TRY_OR_FAIL(responder, parse_json(request.body()));
+  auto column = TRY_OR_FAIL(responder, read_whole<CustomRows>(parsed));
   const auto shared = share(std::move(responder));
   services.tables.put_column(
-      {.feature = feature, .name = *std::move(name), .rows = std::move(column->rows)},
+      {.feature = feature, .name = std::move(name), .rows = std::move(column.rows)},
       condition_of(request), caller_text(request),
       [shared](Result<app::TableCatalog::ColumnStored> stored) {
         if (stored) return answer_change(shared, stored->created ? 201 : 200, *stored);
@@ -199,10 +196,9 @@ void put_column(const Services& services, Feature feature, const Request& reques
 
 void remove_column(const Services& services, Feature feature, const Request& request,
                    Responder responder) {
-  auto name = column_name(request);
-  if (!name) return responder.fail(name.error());
+  auto name = TRY_OR_FAIL(responder, column_name(request));
   const auto shared = share(std::move(responder));
-  services.tables.remove_column(feature, *std::move(name), condition_of(request),
+  services.tables.remove_column(feature, std::move(name), condition_of(request),
                                 caller_text(request),
                                 [shared](Result<app::TableCatalog::ColumnStored> stored) {
                                   if (!stored) return shared->fail(stored.error());
@@ -220,7 +216,7 @@ http::AsyncHandler with(const Services& services, Feature feature,
 void add_feature_routes(Routes& add, Feature feature) {
   const std::string path = "/v1/tables/" + std::string(word(feature));
   const std::string table = feature == Feature::Hole ? "HoleTable" : "ShaftTable";
-  add("GET " + path + " get" + table + " open",
+  add("GET " + path + " get" + table + " open 404",
       ResponseCache::of_revision(add.cache,
                                  [feature](const Request& request, const ToleranceTables& tables) {
                                    return table_response(request, feature, tables);
@@ -229,8 +225,7 @@ void add_feature_routes(Routes& add, Feature feature) {
        .parameters = {query("classes", "H7,JS7: only these classes"), csv_or_json(),
                       revision_parameter()},
        .response_types = {"application/json", "text/csv"},
-       .outcomes = {{.meaning = "The table", .schema = "Table"}},
-       .refusals = {404}});
+       .outcomes = {{.meaning = "The table", .schema = "Table"}}});
   add("GET " + path + ".tab get" + table + "Tab open",
       ResponseCache::cached(add.cache,
                             [feature](const Request&, const ToleranceTables& tables) {
@@ -240,20 +235,18 @@ void add_feature_routes(Routes& add, Feature feature) {
        .response_types = {"text/plain"},
        .outcomes = {{.meaning = "The file"}}});
   const Parameter name = path_parameter("name", "Letter, then letters, digits and _; at most 16");
-  add("PUT " + path + "/classes/{name} put" + table + "Column admin",
+  add("PUT " + path + "/classes/{name} put" + table + "Column admin 404 412",
       with(add.services, feature, put_column),
       {.summary = "Store a custom tolerance class as a new revision",
        .parameters = with_preconditions(name),
        .body = json_body("Column"),
        .outcomes = {{.meaning = "Custom class replaced", .schema = "Revision"},
-                    {.status = 201, .meaning = "Custom class created", .schema = "Revision"}},
-       .refusals = {404, 412}});
-  add("DELETE " + path + "/classes/{name} delete" + table + "Column admin",
+                    {.status = 201, .meaning = "Custom class created", .schema = "Revision"}}});
+  add("DELETE " + path + "/classes/{name} delete" + table + "Column admin 404 409 412",
       with(add.services, feature, remove_column),
       {.summary = "Delete a custom class; the standard class counts again",
        .parameters = with_preconditions(name),
-       .outcomes = {{.status = 204, .meaning = "Deleted"}},
-       .refusals = {404, 409, 412}});
+       .outcomes = {{.status = 204, .meaning = "Deleted"}}});
 }
 
 }  // namespace
