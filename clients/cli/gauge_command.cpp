@@ -207,58 +207,6 @@ std::string record_body(const GaugeOptions& options, const std::string& measured
   return body.text();
 }
 
-}  // namespace
-
-Outcome<ExitCode> verdict_exit_code(std::string_view word) {
-  const auto found = std::ranges::find(kVerdicts, word, &VerdictWord::word);
-  if (found != kVerdicts.end()) return found->exit_code;
-  return Failure{
-      ExitCode::NoAnswer,
-      fmt::format("unknown verdict '{}' from the service: use a fitgauge of its version", word)};
-}
-
-Colour verdict_colour(std::string_view word) {
-  const auto found = std::ranges::find(kVerdicts, word, &VerdictWord::word);
-  return found == kVerdicts.end() ? Colour::Cyan : found->colour;
-}
-
-std::string format_verdict(const JsonValue& document, const Terminal& terminal) {
-  const std::string_view word = document.text_of("verdict");
-  const bool explicit_limits = document.text_of("designation").empty();
-  std::string text =
-      terminal.painted(word.empty() ? "UNJUDGED" : ascii_upper(word), verdict_colour(word));
-  text += fmt::format("  {} mm  {} ({}): {}\n", document.text_of("measured_mm"),
-                      document.text_of(explicit_limits ? "nominal_mm" : "designation"),
-                      limits_text(document), distance_text(document, terminal.micrometre()));
-  if (const std::string_view corrected = document.text_of("corrected_mm"); !corrected.empty()) {
-    text += fmt::format("{} mm at 20 degrees\n", corrected);
-  }
-  text += envelope_text(document);
-  if (const std::string_view id = document.text_of("id"); !id.empty()) {
-    text += fmt::format("stored as {}\n", id);
-  }
-  return text;
-}
-
-Outcome<std::string> measured_text(const std::string& typed) {
-  const auto measured = parse_length_mm(typed, {.decimal_comma = true, .round_to_nearest = true});
-  if (measured) return format_mm(*measured);
-  return Failure{ExitCode::Usage, fmt::format("the measured value must be in mm; got '{}': {}",
-                                              typed, measured.error().message)};
-}
-
-Outcome<ExitCode> show_verdict(const Context& context, const Answer& answer) {
-  const auto document = TRY(context.document_of(answer));
-  if (context.json) {
-    context.print_document(answer.body);
-  } else {
-    context.print("{}", format_verdict(document, context.out));
-  }
-  return verdict_exit_code(document.text_of("verdict"));
-}
-
-namespace {
-
 Outcome<ExitCode> judge(const Context& context, const GaugeOptions& options,
                         const std::string& measured) {
   const auto text = TRY(measured_text(measured));
@@ -338,6 +286,54 @@ Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options)
 }
 
 }  // namespace
+
+Outcome<ExitCode> verdict_exit_code(std::string_view word) {
+  const auto found = std::ranges::find(kVerdicts, word, &VerdictWord::word);
+  if (found != kVerdicts.end()) return found->exit_code;
+  return Failure{
+      ExitCode::NoAnswer,
+      fmt::format("unknown verdict '{}' from the service: use a fitgauge of its version", word)};
+}
+
+Colour verdict_colour(std::string_view word) {
+  const auto found = std::ranges::find(kVerdicts, word, &VerdictWord::word);
+  return found == kVerdicts.end() ? Colour::Cyan : found->colour;
+}
+
+std::string format_verdict(const JsonValue& document, const Terminal& terminal) {
+  const std::string_view word = document.text_of("verdict");
+  const bool explicit_limits = document.text_of("designation").empty();
+  std::string text =
+      terminal.painted(word.empty() ? "UNJUDGED" : ascii_upper(word), verdict_colour(word));
+  text += fmt::format("  {} mm  {} ({}): {}\n", document.text_of("measured_mm"),
+                      document.text_of(explicit_limits ? "nominal_mm" : "designation"),
+                      limits_text(document), distance_text(document, terminal.micrometre()));
+  if (const std::string_view corrected = document.text_of("corrected_mm"); !corrected.empty()) {
+    text += fmt::format("{} mm at 20 degrees\n", corrected);
+  }
+  text += envelope_text(document);
+  if (const std::string_view id = document.text_of("id"); !id.empty()) {
+    text += fmt::format("stored as {}\n", id);
+  }
+  return text;
+}
+
+Outcome<std::string> measured_text(const std::string& typed) {
+  const auto measured = parse_length_mm(typed, {.decimal_comma = true, .round_to_nearest = true});
+  if (measured) return format_mm(*measured);
+  return Failure{ExitCode::Usage, fmt::format("the measured value must be in mm; got '{}': {}",
+                                              typed, measured.error().message)};
+}
+
+Outcome<ExitCode> show_verdict(const Context& context, const Answer& answer) {
+  const auto document = TRY(context.document_of(answer));
+  if (context.json) {
+    context.print_document(answer.body);
+  } else {
+    context.print("{}", format_verdict(document, context.out));
+  }
+  return verdict_exit_code(document.text_of("verdict"));
+}
 
 void add_gauge(CLI::App& app, Action& chosen) {
   const auto [gauge, options] =

@@ -119,53 +119,6 @@ Outcome<ExitCode> show(const Context& context, const std::string& target, const 
   });
 }
 
-}  // namespace
-
-std::string signed_text(std::string_view number) {
-  const bool is_positive = number != "0" && !number.starts_with('-');
-  return (is_positive ? "+" : "") + std::string(number);
-}
-
-std::string format_limits(const JsonValue& limits, const Terminal& terminal) {
-  const ToleranceZone zone = zone_of(limits);
-  const std::string_view unit = terminal.micrometre();
-  const std::array sizes{fmt::format("{} mm", limits.text_of("upper_limit_mm")),
-                         fmt::format("{} mm", limits.text_of("lower_limit_mm")),
-                         fmt::format("{} {}", limits.text_of("tolerance_um"), unit)};
-  std::size_t width = 0;
-  for (const std::string& size : sizes) width = std::max(width, size.size());
-  const JsonValue& range = limits.member("size_range_mm");
-  std::string text =
-      fmt::format("{}  {}{}\n", limits.text_of("designation"), limits.text_of("feature"),
-                  limits.text_of("basis") == "custom" ? ", custom tolerance class" : "");
-  text += fmt::format("upper limit  {:{}}  {} {} {}\n", sizes[0], width, zone.upper_name,
-                      signed_text(limits.text_of("upper_deviation_um")), unit);
-  text += fmt::format("lower limit  {:{}}  {} {} {}\n", sizes[1], width, zone.lower_name,
-                      signed_text(limits.text_of("lower_deviation_um")), unit);
-  text += fmt::format("tolerance    {:{}}  ", sizes[2], width);
-  text += range.members.empty() ? fmt::format("{}\n", limits.text_of("table_revision"))
-                                : fmt::format("sizes over {} up to {} mm\n", range.text_of("over"),
-                                              range.text_of("up_to"));
-  return text;
-}
-
-std::string format_fit(const JsonValue& fit, const Terminal& terminal) {
-  const JsonValue& hole = fit.member("hole");
-  const JsonValue& shaft = fit.member("shaft");
-  const std::array zones{zone_of(hole), zone_of(shaft)};
-  std::string text = fmt::format("{}  {} fit, {}\n\n", fit.text_of("designation"),
-                                 fit.text_of("type"), clearances(fit, terminal.micrometre()));
-  text += draw_zones(zones, fmt::format("{} mm", hole.text_of("nominal_mm")), terminal);
-  text += '\n';
-  for (const JsonValue* part : {&hole, &shaft}) {
-    text += fmt::format("{:5}  {} to {} mm\n", part->text_of("feature"),
-                        part->text_of("lower_limit_mm"), part->text_of("upper_limit_mm"));
-  }
-  return text + measured_clearance(fit.member("statistical").member("stored"), terminal);
-}
-
-namespace {
-
 /// `fitgauge limits 25H7`
 Outcome<ExitCode> run_limits(const Context& context, const std::string& designation) {
   return show(context, "/v1/limits/" + percent_encoded(designation), format_limits);
@@ -230,6 +183,49 @@ Outcome<ExitCode> run_standards(const Context& context, const StandardQuery& que
 }
 
 }  // namespace
+
+std::string signed_text(std::string_view number) {
+  const bool is_positive = number != "0" && !number.starts_with('-');
+  return (is_positive ? "+" : "") + std::string(number);
+}
+
+std::string format_limits(const JsonValue& limits, const Terminal& terminal) {
+  const ToleranceZone zone = zone_of(limits);
+  const std::string_view unit = terminal.micrometre();
+  const std::array sizes{fmt::format("{} mm", limits.text_of("upper_limit_mm")),
+                         fmt::format("{} mm", limits.text_of("lower_limit_mm")),
+                         fmt::format("{} {}", limits.text_of("tolerance_um"), unit)};
+  std::size_t width = 0;
+  for (const std::string& size : sizes) width = std::max(width, size.size());
+  const JsonValue& range = limits.member("size_range_mm");
+  std::string text =
+      fmt::format("{}  {}{}\n", limits.text_of("designation"), limits.text_of("feature"),
+                  limits.text_of("basis") == "custom" ? ", custom tolerance class" : "");
+  text += fmt::format("upper limit  {:{}}  {} {} {}\n", sizes[0], width, zone.upper_name,
+                      signed_text(limits.text_of("upper_deviation_um")), unit);
+  text += fmt::format("lower limit  {:{}}  {} {} {}\n", sizes[1], width, zone.lower_name,
+                      signed_text(limits.text_of("lower_deviation_um")), unit);
+  text += fmt::format("tolerance    {:{}}  ", sizes[2], width);
+  text += range.members.empty() ? fmt::format("{}\n", limits.text_of("table_revision"))
+                                : fmt::format("sizes over {} up to {} mm\n", range.text_of("over"),
+                                              range.text_of("up_to"));
+  return text;
+}
+
+std::string format_fit(const JsonValue& fit, const Terminal& terminal) {
+  const JsonValue& hole = fit.member("hole");
+  const JsonValue& shaft = fit.member("shaft");
+  const std::array zones{zone_of(hole), zone_of(shaft)};
+  std::string text = fmt::format("{}  {} fit, {}\n\n", fit.text_of("designation"),
+                                 fit.text_of("type"), clearances(fit, terminal.micrometre()));
+  text += draw_zones(zones, fmt::format("{} mm", hole.text_of("nominal_mm")), terminal);
+  text += '\n';
+  for (const JsonValue* part : {&hole, &shaft}) {
+    text += fmt::format("{:5}  {} to {} mm\n", part->text_of("feature"),
+                        part->text_of("lower_limit_mm"), part->text_of("upper_limit_mm"));
+  }
+  return text + measured_clearance(fit.member("statistical").member("stored"), terminal);
+}
 
 void add_limits(CLI::App& app, Action& chosen) {
   const std::string size_and_class = "Size and tolerance class, such as 25H7";

@@ -130,47 +130,6 @@ Outcome<std::vector<Diagnostic>> found_there(const Context& context, const std::
   return all;
 }
 
-}  // namespace
-
-Outcome<Levels> read_levels(const std::vector<std::string>& written) {
-  Levels levels;
-  for (const std::string& level : written) {
-    const std::size_t equals = level.find('=');
-    const std::string_view said =
-        equals == level.npos ? "" : std::string_view(level).substr(equals + 1);
-    std::optional<Severity> severity;
-    for (const Severity each : {Severity::Note, Severity::Warning, Severity::Error}) {
-      if (said == word(each)) severity = each;
-    }
-    if (!severity && said != "off") {
-      return Failure{
-          ExitCode::Usage,
-          fmt::format("--level must be CODE= and one of: off, note, warning, error; got '{}'",
-                      level)};
-    }
-    const std::string code = level.substr(0, equals);
-    const auto* known = std::ranges::find(kCodes, code, &Code::id);
-    if (known == std::end(kCodes))
-      return Failure{ExitCode::Usage, fmt::format("--level: unknown finding '{}'", code)};
-    if (known->is_error)
-      return Failure{ExitCode::Usage,
-                     fmt::format("--level: '{}' is always an error: correct the program", code)};
-    levels[code] = severity;
-  }
-  return levels;
-}
-
-void apply_levels(const Levels& levels, std::vector<Diagnostic>& found) {
-  std::erase_if(found, [&](Diagnostic& each) {
-    const auto level = levels.find(id(each.code));
-    if (level == levels.end() || each.severity == Severity::Error) return false;
-    each.severity = level->second.value_or(each.severity);
-    return !level->second;
-  });
-}
-
-namespace {
-
 struct CheckOptions {
   std::vector<std::string> files;
   bool from_control = false;  ///< use files of the service
@@ -336,6 +295,43 @@ Outcome<ExitCode> run_nc_convert(const Context& context, const ConvertOptions& o
 }
 
 }  // namespace
+
+Outcome<Levels> read_levels(const std::vector<std::string>& written) {
+  Levels levels;
+  for (const std::string& level : written) {
+    const std::size_t equals = level.find('=');
+    const std::string_view said =
+        equals == level.npos ? "" : std::string_view(level).substr(equals + 1);
+    std::optional<Severity> severity;
+    for (const Severity each : {Severity::Note, Severity::Warning, Severity::Error}) {
+      if (said == word(each)) severity = each;
+    }
+    if (!severity && said != "off") {
+      return Failure{
+          ExitCode::Usage,
+          fmt::format("--level must be CODE= and one of: off, note, warning, error; got '{}'",
+                      level)};
+    }
+    const std::string code = level.substr(0, equals);
+    const auto* known = std::ranges::find(kCodes, code, &Code::id);
+    if (known == std::end(kCodes))
+      return Failure{ExitCode::Usage, fmt::format("--level: unknown finding '{}'", code)};
+    if (known->is_error)
+      return Failure{ExitCode::Usage,
+                     fmt::format("--level: '{}' is always an error: correct the program", code)};
+    levels[code] = severity;
+  }
+  return levels;
+}
+
+void apply_levels(const Levels& levels, std::vector<Diagnostic>& found) {
+  std::erase_if(found, [&](Diagnostic& each) {
+    const auto level = levels.find(id(each.code));
+    if (level == levels.end() || each.severity == Severity::Error) return false;
+    each.severity = level->second.value_or(each.severity);
+    return !level->second;
+  });
+}
 
 void add_levels(CLI::App& command, std::vector<std::string>& levels) {
   add_repeated(command, "--level", levels, "Level of a code: CODE=off, note, warning or error");

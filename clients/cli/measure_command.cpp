@@ -276,6 +276,14 @@ Outcome<MeasureJournal> open_journal(const Context& context, const MeasureOption
   return MeasureJournal::open(path);
 }
 
+/// `fitgauge import`: stores the rows of a CSV in chunks, each with an idempotency key. The journal
+/// has the stored rows and the last chunk before they are needed: a stopped run can continue at any
+/// point and stores no row twice.
+Outcome<ExitCode> run_measure(const Context& context, const MeasureOptions& options) {
+  auto journal = TRY(open_journal(context, options));
+  return Upload(context, options, std::move(journal)).run();
+}
+
 }  // namespace
 
 std::string explain_rows(const Problem& problem, const std::string& input,
@@ -300,18 +308,6 @@ ExitCode worst_verdict(const VerdictCounts& counts) {
   if (counts.rework > 0) return ExitCode::Rework;
   return counts.indeterminate > 0 ? ExitCode::Indeterminate : ExitCode::Good;
 }
-
-namespace {
-
-/// `fitgauge import`: stores the rows of a CSV in chunks, each with an idempotency key. The journal
-/// has the stored rows and the last chunk before they are needed: a stopped run can continue at any
-/// point and stores no row twice.
-Outcome<ExitCode> run_measure(const Context& context, const MeasureOptions& options) {
-  auto journal = TRY(open_journal(context, options));
-  return Upload(context, options, std::move(journal)).run();
-}
-
-}  // namespace
 
 void add_import(CLI::App& app, Action& chosen) {
   const auto [measure, options] =

@@ -43,44 +43,6 @@ Failure refused_run(const Context& context, Failure failure) {
   return failure;
 }
 
-}  // namespace
-
-void print_messages(const JsonValue& run) {
-  for (const JsonValue& message : run.member("messages").items) {
-    fmt::print(stderr, "{}:{}: {} {}: {}\n", message.text_of("program"), message.text_of("line"),
-               message.text_of("kind"), message.text_of("number"), message.text_of("text"));
-  }
-}
-
-Outcome<std::string> run_order(const RunOptions& options) {
-  JsonObject parameters;
-  for (const std::string& parameter : options.parameters) {
-    const std::size_t equals = parameter.find('=');
-    if (equals == std::string::npos) {
-      return Failure{ExitCode::Usage,
-                     fmt::format("--set must be a parameter such as Q1=25; got '{}'", parameter)};
-    }
-    const std::string name = parameter.substr(0, equals);
-    const auto value = TRY(parameter_json(name, std::string_view(parameter).substr(equals + 1)));
-    parameters.add_raw(name, value);
-  }
-  JsonObject order;
-  order.add("program", control_path(options.program));
-  if (!options.setup.empty() || !options.setup_file.empty()) {
-    const auto setup = TRY(setup_json(options));
-    order.add_raw("setup", setup);
-  }
-  if (!options.parameters.empty()) order.add_raw("parameters", parameters.text());
-  order.add_given("on_stop", options.on_stop)
-      .add_given("language", options.language)
-      .add_given("part_id", options.part_id)
-      .add_given("order", options.order);
-  if (options.block_skip) order.add_raw("block_skip", "true");
-  return order.text();
-}
-
-namespace {
-
 /// The document of a run at the service.
 Outcome<std::string> run_there(const Context& context, const RunOptions& options) {
   if (!options.files_to.empty())
@@ -190,6 +152,40 @@ Outcome<ExitCode> run_nc_get(const Context& context, const GetOptions& options) 
 }
 
 }  // namespace
+
+void print_messages(const JsonValue& run) {
+  for (const JsonValue& message : run.member("messages").items) {
+    fmt::print(stderr, "{}:{}: {} {}: {}\n", message.text_of("program"), message.text_of("line"),
+               message.text_of("kind"), message.text_of("number"), message.text_of("text"));
+  }
+}
+
+Outcome<std::string> run_order(const RunOptions& options) {
+  JsonObject parameters;
+  for (const std::string& parameter : options.parameters) {
+    const std::size_t equals = parameter.find('=');
+    if (equals == std::string::npos) {
+      return Failure{ExitCode::Usage,
+                     fmt::format("--set must be a parameter such as Q1=25; got '{}'", parameter)};
+    }
+    const std::string name = parameter.substr(0, equals);
+    const auto value = TRY(parameter_json(name, std::string_view(parameter).substr(equals + 1)));
+    parameters.add_raw(name, value);
+  }
+  JsonObject order;
+  order.add("program", control_path(options.program));
+  if (!options.setup.empty() || !options.setup_file.empty()) {
+    const auto setup = TRY(setup_json(options));
+    order.add_raw("setup", setup);
+  }
+  if (!options.parameters.empty()) order.add_raw("parameters", parameters.text());
+  order.add_given("on_stop", options.on_stop)
+      .add_given("language", options.language)
+      .add_given("part_id", options.part_id)
+      .add_given("order", options.order);
+  if (options.block_skip) order.add_raw("block_skip", "true");
+  return order.text();
+}
 
 void add_nc(CLI::App& nc, Action& chosen) {
   const auto [run, options] =

@@ -84,6 +84,20 @@ class Watch {
   std::uint64_t shown_ = 0;
 };
 
+/// `fitgauge watch`: prints events as they happen. It reconnects and continues with the next event.
+/// @errors NoAnswer, Refused, KeyNeeded at the first connection.
+Outcome<ExitCode> run_watch(const Context& context, const WatchOptions& options) {
+  static const std::regex kId(R"(m\d{1,19}r?\.e\d{1,19}(-[0-9a-f]+)?)");
+  if (!options.after.empty() && !std::regex_match(options.after, kId)) {
+    return Failure{
+        ExitCode::Usage,
+        fmt::format("--after must be the id of an event, such as m17.e3-5f0c9a3e77d21b40; "
+                    "got '{}'",
+                    options.after)};
+  }
+  return Watch(context, options).run();
+}
+
 }  // namespace
 
 bool EventReader::feed(std::string_view piece) {
@@ -152,24 +166,6 @@ std::string format_event(const Event& event, const Terminal& terminal) {
   }
   return fmt::format("{}  {}\n", event.type, event.data);
 }
-
-namespace {
-
-/// `fitgauge watch`: prints events as they happen. It reconnects and continues with the next event.
-/// @errors NoAnswer, Refused, KeyNeeded at the first connection.
-Outcome<ExitCode> run_watch(const Context& context, const WatchOptions& options) {
-  static const std::regex kId(R"(m\d{1,19}r?\.e\d{1,19}(-[0-9a-f]+)?)");
-  if (!options.after.empty() && !std::regex_match(options.after, kId)) {
-    return Failure{
-        ExitCode::Usage,
-        fmt::format("--after must be the id of an event, such as m17.e3-5f0c9a3e77d21b40; "
-                    "got '{}'",
-                    options.after)};
-  }
-  return Watch(context, options).run();
-}
-
-}  // namespace
 
 void add_watch(CLI::App& app, Action& chosen) {
   const auto [watch, options] = add_command(

@@ -80,6 +80,38 @@ std::string toml_string(std::string_view text) {
   return out += '"';
 }
 
+/// `scheme://host` or `scheme://host:port`, as browsers send it.
+bool is_origin(std::string_view text) {
+  const std::size_t end = text.find("://");
+  if (end == 0 || end == std::string_view::npos || text.size() == end + 3) return false;
+  const auto is_part = [](std::string_view part, std::string_view others) {
+    return std::ranges::all_of(part, [&](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || others.find(c) != others.npos;
+    });
+  };
+  return is_part(text.substr(0, end), "+-.") && is_part(text.substr(end + 3), "-.:[]_");
+}
+
+/// Settings that daemons with a shared database cannot have.
+Result<void> check_database(const Config& config) {
+  if (config.database.empty()) return {};
+  if (!config.database.starts_with("postgresql://") &&
+      !config.database.starts_with("postgres://")) {
+    return config_error("database must be an address such as postgresql://user@host:5432/name");
+  }
+  if (!config.forward_to.empty()) {
+    return config_error(
+        "forward-to needs a data folder: with PostgreSQL (database) the service is a centre; use a "
+        "standby of PostgreSQL for a copy");
+  }
+  if (!config.connections.empty()) {
+    return config_error(
+        "connections need a data folder: with a shared database each service would repeat the "
+        "work");
+  }
+  return {};
+}
+
 }  // namespace
 
 const std::vector<Setting>& settings() {
@@ -267,42 +299,6 @@ Result<void> read_environment(const std::vector<std::string>& environment, Confi
   }
   return {};
 }
-
-namespace {
-
-/// `scheme://host` or `scheme://host:port`, as browsers send it.
-bool is_origin(std::string_view text) {
-  const std::size_t end = text.find("://");
-  if (end == 0 || end == std::string_view::npos || text.size() == end + 3) return false;
-  const auto is_part = [](std::string_view part, std::string_view others) {
-    return std::ranges::all_of(part, [&](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || others.find(c) != others.npos;
-    });
-  };
-  return is_part(text.substr(0, end), "+-.") && is_part(text.substr(end + 3), "-.:[]_");
-}
-
-/// Settings that daemons with a shared database cannot have.
-Result<void> check_database(const Config& config) {
-  if (config.database.empty()) return {};
-  if (!config.database.starts_with("postgresql://") &&
-      !config.database.starts_with("postgres://")) {
-    return config_error("database must be an address such as postgresql://user@host:5432/name");
-  }
-  if (!config.forward_to.empty()) {
-    return config_error(
-        "forward-to needs a data folder: with PostgreSQL (database) the service is a centre; use a "
-        "standby of PostgreSQL for a copy");
-  }
-  if (!config.connections.empty()) {
-    return config_error(
-        "connections need a data folder: with a shared database each service would repeat the "
-        "work");
-  }
-  return {};
-}
-
-}  // namespace
 
 Result<void> check(const Config& config) {
   if (config.listen.empty())

@@ -73,17 +73,6 @@ void delete_file(const Services& services, const Request& request, Responder res
       answer_with(std::move(responder), [](bool) { return Response(204); }));
 }
 
-}  // namespace
-
-void members(auto& v, const app::DiskFile& file) {
-  v.member("path", file.path, "Path on the control");
-  v.member("href", file.path.empty() ? std::string() : href(file.path), "Address at this service");
-  v.member("size", file.size, "Size in bytes");
-  v.member("modified_at", file.modified_at, Time{}, "Time in UTC");
-}
-
-namespace {
-
 struct FilesAnswer {
   std::vector<app::DiskFile> files{};
 };
@@ -134,6 +123,13 @@ const Parameter kPath =
     path_parameter("path", "nc_prog/8255/8255.h is TNC:\\nc_prog\\8255\\8255.h");
 
 }  // namespace
+
+void members(auto& v, const app::DiskFile& file) {
+  v.member("path", file.path, "Path on the control");
+  v.member("href", file.path.empty() ? std::string() : href(file.path), "Address at this service");
+  v.member("size", file.size, "Size in bytes");
+  v.member("modified_at", file.modified_at, Time{}, "Time in UTC");
+}
 
 void add_file_schemas(Schemas& schemas) {
   schemas.push_back(answer_schema<FilesAnswer>("Files"));

@@ -64,6 +64,15 @@ void put_batch(const Services& services, const Request& request, Responder respo
       answer_by(share(std::move(responder))));
 }
 
+void get_revisions(const Services& services, const Request& request, Responder responder) {
+  services.revisions.read(request.text("station").value_or(""),
+                          std::string(request.text("after").value_or("")),
+                          answer_with(std::move(responder), [](const auto& page) {
+                            return Response(200, "application/json", revisions_text(page))
+                                .with("Cache-Control", "no-store");
+                          }));
+}
+
 }  // namespace
 
 void add_intake_routes(Routes& add) {
@@ -90,19 +99,6 @@ void add_intake_routes(Routes& add) {
                 "All records are stored durably; the head of the station's log at this service",
             .schema = "LogHead"}}});
 }
-
-namespace {
-
-void get_revisions(const Services& services, const Request& request, Responder responder) {
-  services.revisions.read(request.text("station").value_or(""),
-                          std::string(request.text("after").value_or("")),
-                          answer_with(std::move(responder), [](const auto& page) {
-                            return Response(200, "application/json", revisions_text(page))
-                                .with("Cache-Control", "no-store");
-                          }));
-}
-
-}  // namespace
 
 void add_revisions_routes(Routes& add) {
   add("GET /v1/log/revisions getRevisions station 403", get_revisions,

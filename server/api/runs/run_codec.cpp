@@ -68,82 +68,6 @@ void members(auto& v, const TableAnswer& table) {
   v.member("source", table.source, "live: from the tables in use; stored: a file");
 }
 
-}  // namespace
-
-void members(auto& v, const RunMessage& message) {
-  const bool has_column = message.column != 0;
-  v.member("kind", message.kind, Words{interpreter::MessageKind::Note},
-           "A note names the effects that the simulation does not have");
-  v.member("number", message.number, "Number of the control's message; 0 if it has none");
-  v.member("text", message.text, "Text of the message");
-  v.member("program", message.program, "Program that sent it");
-  v.member("line", message.line, "Line, from 1");
-  v.member("block", message.block, "Block number, as written");
-  v.optional("column", has_column ? &message.column : nullptr, "Column of the wrong word, from 1");
-  v.optional("source", has_column ? &message.source : nullptr,
-             "Line of the program as written; present with `column`");
-}
-
-void members(auto& v, const probing::MeasuredSize& size) {
-  const auto* limits = size.limits ? &*size.limits : nullptr;
-  v.member("characteristic", size.characteristic, "Measured quantity: diameter, width");
-  v.member("nominal_mm", size.nominal, Millimetres{});
-  v.member("measured_mm", size.measured, Millimetres{});
-  v.member("deviation_um", size.measured - size.nominal, Micrometres{}, "Measured minus nominal");
-  v.optional("upper_limit_mm", limits != nullptr ? &limits->upper : nullptr, Millimetres{},
-             "Limit, if the cycle has limits");
-  v.optional("lower_limit_mm", limits != nullptr ? &limits->lower : nullptr, Millimetres{},
-             "Limit, if the cycle has limits");
-  v.optional("uncertainty_um", size.uncertainty, Micrometres{},
-             "Standard uncertainty, if the setup states that of a touch: twice it is a guard band");
-  v.member("verdict", size.verdict, kVerdict);
-}
-
-void members(auto& v, const probing::Form& form) {
-  v.member("assessable", form.assessable, "true if there are enough points to judge it");
-  v.optional("reason", form.reason.empty() ? nullptr : &form.reason,
-             "Reason if it is not assessable");
-  v.optional("residual_mm", form.residual_mm, Digits{},
-             "Root mean square of the points from the circle");
-}
-
-void members(auto& v, const klartext::DiagnosticNote& note) {
-  v.member("message", note.message);
-  v.optional("program", note.program.empty() ? nullptr : &note.program,
-             "The file that it is in; absent: the file of the finding");
-  v.member("line", note.range.begin.line, "Number, from 1");
-  v.member("column", note.range.begin.column, "Number, from 1");
-}
-
-void members(auto& v, const interpreter::Measurement& measurement) {
-  const probing::MeasuringRecord& record = measurement.record;
-  v.member("cycle", record.cycle, "Number of the cycle");
-  v.member("program", measurement.program);
-  v.member("line", measurement.line);
-  v.member("block", measurement.block);
-  v.member("verdict", record.verdict, kVerdict, "null without limits");
-  v.member("sizes", record.sizes);
-  v.optional("form", record.form, "Form of a circular feature");
-  v.optional("origins", measurement.origins.empty() ? nullptr : &measurement.origins,
-             "Blocks that its parameters and its datum come from");
-}
-
-void members(auto& v, const klartext::Diagnostic& found) {
-  v.member("severity", found.severity, OneOf<3>{"note", "warning", "error"},
-           "An error refuses a run");
-  v.member("code", id(found.code), "Stable code");
-  v.member("message", found.message, "The fault and its remedy");
-  v.member("program", found.program, "The file it is in");
-  v.member("line", found.range.begin.line, "Number, from 1");
-  v.member("column", found.range.begin.column, "Number, from 1");
-  v.member("block", found.block, "The block number, if there is one");
-  v.member("source", found.source, "The line as written");
-  v.optional("notes", found.notes.empty() ? nullptr : &found.notes,
-             "Other places of the same finding");
-}
-
-namespace {
-
 struct RunHead {
   std::string id{};
   app::RunState state{};
@@ -274,6 +198,78 @@ Result<app::RunOrder> stored_order(const std::string& request, const app::Contro
 }
 
 }  // namespace
+
+void members(auto& v, const RunMessage& message) {
+  const bool has_column = message.column != 0;
+  v.member("kind", message.kind, Words{interpreter::MessageKind::Note},
+           "A note names the effects that the simulation does not have");
+  v.member("number", message.number, "Number of the control's message; 0 if it has none");
+  v.member("text", message.text, "Text of the message");
+  v.member("program", message.program, "Program that sent it");
+  v.member("line", message.line, "Line, from 1");
+  v.member("block", message.block, "Block number, as written");
+  v.optional("column", has_column ? &message.column : nullptr, "Column of the wrong word, from 1");
+  v.optional("source", has_column ? &message.source : nullptr,
+             "Line of the program as written; present with `column`");
+}
+
+void members(auto& v, const probing::MeasuredSize& size) {
+  const auto* limits = size.limits ? &*size.limits : nullptr;
+  v.member("characteristic", size.characteristic, "Measured quantity: diameter, width");
+  v.member("nominal_mm", size.nominal, Millimetres{});
+  v.member("measured_mm", size.measured, Millimetres{});
+  v.member("deviation_um", size.measured - size.nominal, Micrometres{}, "Measured minus nominal");
+  v.optional("upper_limit_mm", limits != nullptr ? &limits->upper : nullptr, Millimetres{},
+             "Limit, if the cycle has limits");
+  v.optional("lower_limit_mm", limits != nullptr ? &limits->lower : nullptr, Millimetres{},
+             "Limit, if the cycle has limits");
+  v.optional("uncertainty_um", size.uncertainty, Micrometres{},
+             "Standard uncertainty, if the setup states that of a touch: twice it is a guard band");
+  v.member("verdict", size.verdict, kVerdict);
+}
+
+void members(auto& v, const probing::Form& form) {
+  v.member("assessable", form.assessable, "true if there are enough points to judge it");
+  v.optional("reason", form.reason.empty() ? nullptr : &form.reason,
+             "Reason if it is not assessable");
+  v.optional("residual_mm", form.residual_mm, Digits{},
+             "Root mean square of the points from the circle");
+}
+
+void members(auto& v, const klartext::DiagnosticNote& note) {
+  v.member("message", note.message);
+  v.optional("program", note.program.empty() ? nullptr : &note.program,
+             "The file that it is in; absent: the file of the finding");
+  v.member("line", note.range.begin.line, "Number, from 1");
+  v.member("column", note.range.begin.column, "Number, from 1");
+}
+
+void members(auto& v, const interpreter::Measurement& measurement) {
+  const probing::MeasuringRecord& record = measurement.record;
+  v.member("cycle", record.cycle, "Number of the cycle");
+  v.member("program", measurement.program);
+  v.member("line", measurement.line);
+  v.member("block", measurement.block);
+  v.member("verdict", record.verdict, kVerdict, "null without limits");
+  v.member("sizes", record.sizes);
+  v.optional("form", record.form, "Form of a circular feature");
+  v.optional("origins", measurement.origins.empty() ? nullptr : &measurement.origins,
+             "Blocks that its parameters and its datum come from");
+}
+
+void members(auto& v, const klartext::Diagnostic& found) {
+  v.member("severity", found.severity, OneOf<3>{"note", "warning", "error"},
+           "An error refuses a run");
+  v.member("code", id(found.code), "Stable code");
+  v.member("message", found.message, "The fault and its remedy");
+  v.member("program", found.program, "The file it is in");
+  v.member("line", found.range.begin.line, "Number, from 1");
+  v.member("column", found.range.begin.column, "Number, from 1");
+  v.member("block", found.block, "The block number, if there is one");
+  v.member("source", found.source, "The line as written");
+  v.optional("notes", found.notes.empty() ? nullptr : &found.notes,
+             "Other places of the same finding");
+}
 
 void write_parameters(JsonWriter& json, std::span<const ParameterValue> parameters) {
   json.begin_object();

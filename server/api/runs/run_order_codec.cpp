@@ -174,19 +174,6 @@ struct Contacts {
   }
 };
 
-}  // namespace
-
-void members(auto& v, interpreter::RunLimits& limits) {
-  v.optional("blocks", limits.blocks, Integer{1, kMostBlocks}, "Executed");
-  double seconds = limits.time.count();
-  v.optional("seconds", seconds,
-             Number{0, kMostSeconds, Number::Ends::OpenBelow, "must be above 0 and at most 60"},
-             "Seconds of computing, above 0; machining time has no limit");
-  limits.time = std::chrono::duration<double>(seconds);
-}
-
-namespace {
-
 struct RunOrderBody {
   std::string program{};
   interpreter::RunOptions options{};
@@ -240,6 +227,15 @@ Result<void> put_setup_in_place(JsonValue& body, const FindSetup& find_setup, Fi
 }
 
 }  // namespace
+
+void members(auto& v, interpreter::RunLimits& limits) {
+  v.optional("blocks", limits.blocks, Integer{1, kMostBlocks}, "Executed");
+  double seconds = limits.time.count();
+  v.optional("seconds", seconds,
+             Number{0, kMostSeconds, Number::Ends::OpenBelow, "must be above 0 and at most 60"},
+             "Seconds of computing, above 0; machining time has no limit");
+  limits.time = std::chrono::duration<double>(seconds);
+}
 
 NamedSchema run_order_schema() { return order_schema<RunOrderBody>("RunOrder"); }
 

@@ -32,6 +32,16 @@ constexpr KindOfDocument kSetups{.kind = app::DocumentKind::Setup,
                                  .names_with_slashes = false,
                                  .check = check_setup};
 
+/// Reports contradictions between fields, unless a refused field is the reason.
+void check(const machine::Setup& setup, const std::string& pointer, FieldErrors& errors) {
+  const auto valid = machine::validate(setup);
+  if (valid) return;
+  for (const Error& finding : valid.error().details) {
+    std::string where = pointer + finding.where;
+    if (!errors.has(where)) errors.add(finding.code, std::move(where), finding.message);
+  }
+}
+
 }  // namespace
 
 // The members of a setup's workpiece.
@@ -141,20 +151,6 @@ inline constexpr Nested kWorkpieceForm{
                  "Clamps and vices, joined likewise: no value is taken from them, and a tool that "
                  "touches one ends the run as failed");
     }};
-
-namespace {
-
-/// Reports contradictions between fields, unless a refused field is the reason.
-void check(const machine::Setup& setup, const std::string& pointer, FieldErrors& errors) {
-  const auto valid = machine::validate(setup);
-  if (valid) return;
-  for (const Error& finding : valid.error().details) {
-    std::string where = pointer + finding.where;
-    if (!errors.has(where)) errors.add(finding.code, std::move(where), finding.message);
-  }
-}
-
-}  // namespace
 
 void members(auto& v, machine::Setup& setup) {
   v.optional("machine", setup.machine, Object<machine::MachineSetup>{"Machine"},

@@ -86,6 +86,25 @@ bool is_private(const Address6& address) {
   return false;
 }
 
+constexpr long kConnectSeconds = 10;
+
+struct TakenBody {
+  std::string& text;
+  std::size_t longest;
+};
+
+std::size_t take_body(char* data, std::size_t, std::size_t size, void* user) {
+  const auto& body = *static_cast<const TakenBody*>(user);
+  if (body.longest == 0) return size;
+  if (body.text.size() + size > body.longest) return 0;
+  body.text.append(data, size);
+  return size;
+}
+
+int look_around(void* user, curl_off_t, curl_off_t, curl_off_t, curl_off_t) {
+  return (*static_cast<const std::function<bool()>*>(user))() ? 0 : 1;
+}
+
 }  // namespace
 
 CurlHandle::~CurlHandle() {
@@ -135,29 +154,6 @@ bool is_private_address(const sockaddr& address) {
   std::memcpy(bytes.data(), &v6.sin6_addr, bytes.size());
   return is_private(bytes);
 }
-
-namespace {
-
-constexpr long kConnectSeconds = 10;
-
-struct TakenBody {
-  std::string& text;
-  std::size_t longest;
-};
-
-std::size_t take_body(char* data, std::size_t, std::size_t size, void* user) {
-  const auto& body = *static_cast<const TakenBody*>(user);
-  if (body.longest == 0) return size;
-  if (body.text.size() + size > body.longest) return 0;
-  body.text.append(data, size);
-  return size;
-}
-
-int look_around(void* user, curl_off_t, curl_off_t, curl_off_t, curl_off_t) {
-  return (*static_cast<const std::function<bool()>*>(user))() ? 0 : 1;
-}
-
-}  // namespace
 
 /// The resolved address counts, not the name: a name may change its mind between two looks.
 curl_socket_t HttpClient::open_socket(void* client, curlsocktype, curl_sockaddr* address) {

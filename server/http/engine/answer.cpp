@@ -159,6 +159,44 @@ std::string_view body_of(const Response& response) {
   throw std::logic_error("a streamed body cannot be prepared");
 }
 
+/// The body as gzip: long or streamed bodies are packed piece by piece.
+void pack(Response& response, SentAnswer& sent) {
+  response.with("Content-Encoding", "gzip");
+  response.etag = packed_etag(response.etag);
+  if (std::holds_alternative<StreamedBody>(response.body)) {
+    sent.packed = true;
+    return;
+  }
+  const auto [owner, body] = bytes_of(response.body);
+  if (body.size() <= OutputQueue::kLongBody) {
+    response.body = gzip(body);
+    return;
+  }
+  sent.packed = true;
+  constexpr long kOwn = 2;  // here and in the response
+  const std::size_t held = owner.use_count() > kOwn ? 0 : body.size();
+  response.body = StreamedBody{.source = std::make_shared<TextStream>(owner, body), .held = held};
+}
+
+/// Whether there is a gzip form. A short response has one only for a client that accepts nothing
+/// else.
+struct PackedForm {
+  bool exists = false;
+  bool is_sent = false;
+};
+
+PackedForm packed_form(Response& response, const AnswerForm& form) {
+  const auto is_coded = [](const Header& header) {
+    return ascii_iequals(header.name, "Content-Encoding");
+  };
+  if (!may_have_body(response.status) || !is_packable(response.content_type)) return {};
+  if (std::ranges::any_of(response.headers, is_coded)) return {.exists = true};
+  const bool is_long = std::holds_alternative<StreamedBody>(response.body) ||
+                       bytes_of(response.body).second.size() > kPackedFrom;
+  const bool is_sent = takes_packed(form.codings, is_long);
+  return {.exists = is_long || is_sent, .is_sent = is_sent};
+}
+
 }  // namespace
 
 std::size_t append_status(std::string& out, int status, const HttpDate& date) {
@@ -210,48 +248,6 @@ void append_chunk(std::string& out, std::string_view bytes) {
   fmt::format_to(std::back_inserter(out), "{:x}\r\n", bytes.size());
   out.append(bytes).append("\r\n");
 }
-
-namespace {
-
-/// The body as gzip: long or streamed bodies are packed piece by piece.
-void pack(Response& response, SentAnswer& sent) {
-  response.with("Content-Encoding", "gzip");
-  response.etag = packed_etag(response.etag);
-  if (std::holds_alternative<StreamedBody>(response.body)) {
-    sent.packed = true;
-    return;
-  }
-  const auto [owner, body] = bytes_of(response.body);
-  if (body.size() <= OutputQueue::kLongBody) {
-    response.body = gzip(body);
-    return;
-  }
-  sent.packed = true;
-  constexpr long kOwn = 2;  // here and in the response
-  const std::size_t held = owner.use_count() > kOwn ? 0 : body.size();
-  response.body = StreamedBody{.source = std::make_shared<TextStream>(owner, body), .held = held};
-}
-
-/// Whether there is a gzip form. A short response has one only for a client that accepts nothing
-/// else.
-struct PackedForm {
-  bool exists = false;
-  bool is_sent = false;
-};
-
-PackedForm packed_form(Response& response, const AnswerForm& form) {
-  const auto is_coded = [](const Header& header) {
-    return ascii_iequals(header.name, "Content-Encoding");
-  };
-  if (!may_have_body(response.status) || !is_packable(response.content_type)) return {};
-  if (std::ranges::any_of(response.headers, is_coded)) return {.exists = true};
-  const bool is_long = std::holds_alternative<StreamedBody>(response.body) ||
-                       bytes_of(response.body).second.size() > kPackedFrom;
-  const bool is_sent = takes_packed(form.codings, is_long);
-  return {.exists = is_long || is_sent, .is_sent = is_sent};
-}
-
-}  // namespace
 
 SentAnswer append_answer(OutputQueue& out, Response& response, const AnswerForm& form,
                          const HttpDate& date) {

@@ -27,6 +27,23 @@ void name_authorities(SSL_CTX* context, const std::string& pem) {
   ERR_clear_error();
 }
 
+Error cannot_listen(const ListenAddress& address, const error_code& error) {
+  return {ErrorCode::ListenFailed, fmt::format("cannot listen on {} port {}: {}", address.host,
+                                               address.port, error.message())};
+}
+
+/// Opens and binds; the error has the failed step.
+error_code bind(Acceptor& acceptor, const ListenAddress& address) {
+  error_code error;
+  const auto ip = asio::ip::make_address(address.host, error);
+  const asio::ip::tcp::endpoint endpoint(ip, address.port);
+  if (!error) acceptor.open(endpoint.protocol(), error);
+  if (!error) acceptor.set_option(Acceptor::reuse_address(true), error);
+  if (!error && ip.is_v6()) acceptor.set_option(asio::ip::v6_only(true), error);
+  if (!error) acceptor.bind(endpoint, error);
+  return error;
+}
+
 }  // namespace
 
 Result<std::shared_ptr<ssl::context>> load_tls(const TlsOptions& options) {
@@ -179,27 +196,6 @@ Listener::Listener(std::vector<IoThread*> threads, Deliver deliver)
       deliver_(std::move(deliver)),
       acceptor_(threads_.front()->context()),
       retry_(threads_.front()->context()) {}
-
-namespace {
-
-Error cannot_listen(const ListenAddress& address, const error_code& error) {
-  return {ErrorCode::ListenFailed, fmt::format("cannot listen on {} port {}: {}", address.host,
-                                               address.port, error.message())};
-}
-
-/// Opens and binds; the error has the failed step.
-error_code bind(Acceptor& acceptor, const ListenAddress& address) {
-  error_code error;
-  const auto ip = asio::ip::make_address(address.host, error);
-  const asio::ip::tcp::endpoint endpoint(ip, address.port);
-  if (!error) acceptor.open(endpoint.protocol(), error);
-  if (!error) acceptor.set_option(Acceptor::reuse_address(true), error);
-  if (!error && ip.is_v6()) acceptor.set_option(asio::ip::v6_only(true), error);
-  if (!error) acceptor.bind(endpoint, error);
-  return error;
-}
-
-}  // namespace
 
 Result<void> check_listen(const ListenAddress& address) {
   asio::io_context context;
