@@ -157,10 +157,7 @@ std::string state_json(const MachineState& machine) {
   }
   std::vector<std::string> errors;
   for (const auto& error : machine.errors) {
-    errors.push_back(JsonObject()
-                         .add_raw("number", std::to_string(error.number))
-                         .add("text", error.text)
-                         .text());
+    errors.push_back(JsonObject().add("number", error.number).add("text", error.text).text());
   }
   const auto percent = [](std::uint32_t hundredths) {
     return fmt::format("{}", hundredths / 100.0);
@@ -173,7 +170,7 @@ std::string state_json(const MachineState& machine) {
       .add("state", name_of(machine.state))
       .add("program", machine.program.main)
       .add("current", machine.program.current)
-      .add_raw("line", std::to_string(machine.program.line))
+      .add("line", machine.program.line)
       .add_raw("axes", axes.text())
       .add_raw("feed_percent", percent(machine.overrides.feed))
       .add_raw("spindle_percent", percent(machine.overrides.spindle))
@@ -243,7 +240,7 @@ Outcome<ExitCode> run_control_ls(const Context& context, const Words& words) {
       rows.push_back(JsonObject()
                          .add("name", entry.name)
                          .add_raw("folder", is_folder ? "true" : "false")
-                         .add_raw("size", std::to_string(entry.bytes))
+                         .add("size", entry.bytes)
                          .add("modified_at", format_rfc3339(modified))
                          .text());
     } else {

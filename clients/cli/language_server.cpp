@@ -50,7 +50,7 @@ std::string json_of(Place begin, Place end) {
 
 std::string json_of(const Edit& edit) {
   return fmt::format(R"({{"range":{},"newText":{}}})", json_of(edit.begin, edit.end),
-                     json_quoted(edit.by));
+                     json_string(edit.by));
 }
 
 std::string json_of(const Changes& changes) {
@@ -77,13 +77,13 @@ std::string json_of(const OpenProgram& program, const klartext::Diagnostic& foun
   for (const klartext::DiagnosticNote& note : found.notes) {
     if (!note.program.empty()) continue;
     others.push_back(fmt::format(R"({{"location":{{"uri":{},"range":{}}},"message":{}}})",
-                                 json_quoted(program.uri), json_of(program, note.range),
-                                 json_quoted(note.message)));
+                                 json_string(program.uri), json_of(program, note.range),
+                                 json_string(note.message)));
   }
   return fmt::format(
       R"({{"range":{},"severity":{},"code":"{}","source":"fitgauge","message":{},"relatedInformation":{}}})",
       json_of(program, found.range), kSeverities[static_cast<std::size_t>(found.severity)],
-      id(found.code), json_quoted(found.message), list_of(others));
+      id(found.code), json_string(found.message), list_of(others));
 }
 
 std::optional<std::size_t> whole(const JsonValue& value) {
@@ -109,7 +109,7 @@ void notify(std::string_view method, const JsonObject& params) {
 void respond(std::string_view id, const Reply& reply) {
   if (reply) return send(fmt::format(R"({{"jsonrpc":"2.0","id":{},"result":{}}})", id, *reply));
   send(fmt::format(R"({{"jsonrpc":"2.0","id":{},"error":{{"code":{},"message":{}}}}})", id,
-                   reply.error().code, json_quoted(reply.error().message)));
+                   reply.error().code, json_string(reply.error().message)));
 }
 
 void publish(Server& server) {
@@ -121,7 +121,7 @@ void publish(Server& server) {
     for (const auto& found : program.found) findings.push_back(json_of(program, found));
     JsonObject params;
     params.add("uri", uri).add_raw("diagnostics", list_of(findings));
-    if (program.version) params.add_raw("version", std::to_string(*program.version));
+    if (program.version) params.add("version", *program.version);
     notify("textDocument/publishDiagnostics", params);
   }
 }
@@ -207,7 +207,7 @@ Reply hover(Server& server, const JsonValue& params) {
   return at_place(server, params, [](const OpenProgram& program, Place place) -> Reply {
     const std::string text = hover_text(program.text, place);
     if (text.empty()) return std::string("null");
-    return fmt::format(R"({{"contents":{{"kind":"markdown","value":{}}}}})", json_quoted(text));
+    return fmt::format(R"({{"contents":{{"kind":"markdown","value":{}}}}})", json_string(text));
   });
 }
 
@@ -219,7 +219,7 @@ Reply complete(Server& server, const JsonValue& params) {
       if (!server.has_snippets) item.edit.by = std::regex_replace(item.edit.by, kMark, "$1");
       items.push_back(
           fmt::format(R"({{"label":{},"detail":{},"insertTextFormat":{},"textEdit":{}}})",
-                      json_quoted(item.label), json_quoted(item.detail),
+                      json_string(item.label), json_string(item.detail),
                       server.has_snippets ? 2 : 1, json_of(item.edit)));
     }
     return list_of(items);
@@ -230,7 +230,7 @@ Reply define(Server& server, const JsonValue& params) {
   return at_place(server, params, [&](const OpenProgram& program, Place place) -> Reply {
     const auto target = server.programs.definition(program, place.line);
     if (!target) return std::string("null");
-    return fmt::format(R"({{"uri":{},"range":{}}})", json_quoted(target->first),
+    return fmt::format(R"({{"uri":{},"range":{}}})", json_string(target->first),
                        json_of({target->second, 0}, {target->second, 0}));
   });
 }
@@ -268,7 +268,7 @@ Reply act(Server& server, const JsonValue& params) {
       for (const Remedy& remedy : remedies(program.text, found)) {
         actions.push_back(fmt::format(
             R"({{"title":{},"kind":"quickfix","isPreferred":{},"diagnostics":[{}],"edit":{}}})",
-            json_quoted(remedy.title), remedy.is_preferred, json_of(program, found),
+            json_string(remedy.title), remedy.is_preferred, json_of(program, found),
             json_of(Changes{{program.uri, remedy.edits}})));
       }
     }
@@ -318,7 +318,7 @@ void handle(Server& server, const std::string& text) {
   server.is_over = is_notice && method.text == "exit";
   if (server.is_over) return;
   const Reply reply = reply_to(server, method.text, message->member("params"));
-  if (!is_notice) return respond(is_text ? json_quoted(id.text) : id.text, reply);
+  if (!is_notice) return respond(is_text ? json_string(id.text) : id.text, reply);
   if (reply.has_error() && reply.error().code == kInvalidParams)
     notify("window/logMessage",
            JsonObject().add_raw("type", "1").add("message", reply.error().message));

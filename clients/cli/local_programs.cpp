@@ -26,14 +26,14 @@ constexpr Code kCodes[] = {
 
 JsonObject sarif_region(SourceRange range) {
   JsonObject region;
-  region.add_raw("startLine", std::to_string(std::max(range.begin.line, 1U)));
-  region.add_raw("startColumn", std::to_string(std::max(range.begin.column, 1U)));
+  region.add("startLine", std::max(range.begin.line, 1U));
+  region.add("startColumn", std::max(range.begin.column, 1U));
   return region;
 }
 
 std::string sarif_artifact(std::string uri) {
   std::ranges::replace(uri, '\\', '/');
-  return fmt::format(R"({{"uri":{}}})", json_quoted(percent_encoded(uri, "/:")));
+  return fmt::format(R"({{"uri":{}}})", json_string(percent_encoded(uri, "/:")));
 }
 
 JsonObject sarif_place(const std::string& uri, SourceRange range) {
@@ -44,7 +44,7 @@ JsonObject sarif_place(const std::string& uri, SourceRange range) {
 }
 
 std::string sarif_message(const std::string& text) {
-  return fmt::format(R"({{"text":{}}})", json_quoted(text));
+  return fmt::format(R"({{"text":{}}})", json_string(text));
 }
 
 std::string sarif_fix(const Diagnostic& found, const klartext::DiagnosticRemedy& remedy) {
@@ -52,8 +52,7 @@ std::string sarif_fix(const Diagnostic& found, const klartext::DiagnosticRemedy&
   for (const auto& [range, by] : remedy.edits)
     changes += fmt::format(
         R"({}{{"deletedRegion":{},"insertedContent":{}}})", changes.empty() ? "" : ",",
-        sarif_region(range).add_raw("endColumn", std::to_string(range.end.column)).text(),
-        sarif_message(by));
+        sarif_region(range).add("endColumn", range.end.column).text(), sarif_message(by));
   return fmt::format(
       R"({{"description":{},"artifactChanges":[{{"artifactLocation":{},"replacements":[{}]}}]}})",
       sarif_message(remedy.title), sarif_artifact(found.program), changes);

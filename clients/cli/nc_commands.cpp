@@ -20,7 +20,7 @@ bool names_folder(std::string_view path) { return path.ends_with('/') || path.en
 
 /// A parameter's value as JSON: a QS holds a text, every other one a number.
 Outcome<std::string> parameter_json(std::string_view name, std::string_view value) {
-  if (ascii_iequals(name.substr(0, 2), "QS")) return json_quoted(value);
+  if (ascii_iequals(name.substr(0, 2), "QS")) return json_string(value);
   const auto number = parse_document(value);
   if (number && number->kind == JsonValue::Kind::Number) return std::string(value);
   return Failure{ExitCode::Usage,
@@ -28,7 +28,7 @@ Outcome<std::string> parameter_json(std::string_view name, std::string_view valu
 }
 
 Outcome<std::string> setup_json(const RunOptions& options) {
-  if (options.setup_file.empty()) return json_quoted(options.setup);
+  if (options.setup_file.empty()) return json_string(options.setup);
   auto text = read_file(options.setup_file);
   if (!text || parse_document(*text)) return text;
   return Failure{ExitCode::LocalFile, options.setup_file + ": is not JSON"};

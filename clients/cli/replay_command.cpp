@@ -95,7 +95,7 @@ class Comparison {
   std::size_t differing() const { return rows_.size(); }
   std::string json() const {
     return JsonObject()
-        .add_raw("results", std::to_string(results_))
+        .add("results", results_)
         .add_raw("differing", fmt::format("[{}]", fmt::join(rows_, ",")))
         .text();
   }
@@ -127,8 +127,8 @@ void Comparison::compare(const MeasuringLog& logged, const MeasuringLog* replaye
         replayed == nullptr ? nullptr : partner(replayed->values, value, i, logged.values.size());
     if (other != nullptr && difference(value, *other) == 0) continue;
     JsonObject row;
-    row.add_raw("cycle", std::to_string(logged.cycle))
-        .add_raw("call", std::to_string(call))
+    row.add("cycle", logged.cycle)
+        .add("call", call)
         .add("result", value.name)
         .add("log", value.printed)
         .add_given("replay", other == nullptr ? "" : other->printed);

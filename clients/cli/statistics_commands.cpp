@@ -60,10 +60,10 @@ Outcome<std::string> arrays_of(std::string_view text, bool& flat) {
     flat = flat && values.size() == 1;
     nested += nested.empty() ? "[" : ",[";
     for (std::size_t i = 0; i < values.size(); ++i) {
-      nested += fmt::format("{}{}", i == 0 ? "" : ",", json_quoted(values[i]));
+      nested += fmt::format("{}{}", i == 0 ? "" : ",", json_string(values[i]));
     }
     nested += ']';
-    if (flat) single += fmt::format("{}{}", single.empty() ? "" : ",", json_quoted(values.front()));
+    if (flat) single += fmt::format("{}{}", single.empty() ? "" : ",", json_string(values.front()));
   }
   return fmt::format("[{}]", flat ? single : nested);
 }

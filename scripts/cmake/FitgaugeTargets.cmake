@@ -16,7 +16,7 @@ if(FITGAUGE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 add_library(fitgauge_options INTERFACE)
-target_include_directories(fitgauge_options INTERFACE "${CMAKE_SOURCE_DIR}/server")
+target_include_directories(fitgauge_options INTERFACE "${CMAKE_BINARY_DIR}/include/base")  # of the prelude
 # A room is one library: a program maps what the parts of it need that it uses.
 target_link_options(fitgauge_options INTERFACE -Wl,--as-needed)
 target_compile_options(fitgauge_options INTERFACE

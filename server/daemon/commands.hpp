@@ -34,11 +34,6 @@ std::filesystem::path health_port_file(const Config& config);
 /// @errors NotReady with the reason: no connection, no answer in 3 s, or a status other than 200.
 Result<void> healthcheck(const Config& config);
 
-/// fitgauged: reads flags, environment and file, then serves or runs a command.
-/// @returns the exit code: 0, 1 if the service cannot run or a check has findings, 2 if the command
-/// line or the configuration is wrong. One line on stderr has the reason.
-int run_command_line(int argc, char** argv);
-
 /// Runs the service until SIGTERM or SIGINT; SIGHUP reads the certificates again.
 /// @param port_file receives the first port, in decimal, when the socket listens; may be empty.
 /// @errors those of opening the database and of listening.
