@@ -152,15 +152,12 @@ void write_statistical(JsonWriter& json, const iso286::Fit& fit, const WriteStor
 
 void write_side(JsonWriter& json, std::string_view name, const iso286::LimitsOfSize& limits,
                 std::string_view class_name, const ToleranceTables& tables) {
-  json.key(name).begin_object();
-  if (standards::is_bearing_class(class_name)) {
-    const Length nominal = limits.nominal_size.length();
-    write_limits_members(json,
-                         standards::bearing_limits(nominal, class_name, limits.feature).value());
-  } else {
-    write_limits_members(json, limits, tables);
+  if (!standards::is_bearing_class(class_name)) {
+    return write_body(json.key(name), limits_answer(limits, tables));
   }
-  json.end_object();
+  const Length nominal = limits.nominal_size.length();
+  write_body(json.key(name),
+             limits_answer(standards::bearing_limits(nominal, class_name, limits.feature).value()));
 }
 
 void write_fit_members(JsonWriter& json, const iso286::Fit& fit,

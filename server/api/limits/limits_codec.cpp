@@ -14,47 +14,29 @@ Result<store::DesignationFilter> parse_designation(std::string_view text) {
                                   std::move(designation.class_name), designation.has_envelope};
 }
 
-void write_limits_members(JsonWriter& json, const iso286::LimitsOfSize& limits,
-                          const iso286::ToleranceTables& tables) {
+LimitsAnswer limits_answer(const iso286::LimitsOfSize& limits,
+                           const iso286::ToleranceTables& tables) {
   const std::string_view class_name = tables.class_name(limits.class_id);
-  const Length nominal_size = limits.nominal_size.length();
-  json.member("designation", designation_text(nominal_size, class_name))
-      .member_mm("nominal_mm", nominal_size)
-      .member("tolerance_class", class_name)
-      .member("feature", word(limits.feature))
-      .member_um("upper_deviation_um", limits.deviations.upper)
-      .member_um("lower_deviation_um", limits.deviations.lower)
-      .member_mm("upper_limit_mm", limits.upper_limit())
-      .member_mm("lower_limit_mm", limits.lower_limit())
-      .member_um("tolerance_um", limits.tolerance())
-      .key("size_range_mm")
-      .begin_object()
-      .member_mm("over", limits.size_range.over)
-      .member_mm("up_to", limits.size_range.up_to)
-      .end_object()
-      .member("basis", word(limits.basis))
-      .member("table_revision", std::string_view(tables.revision().id));
+  const Length nominal = limits.nominal_size.length();
+  return {.designation = designation_text(nominal, class_name),
+          .nominal = nominal,
+          .tolerance_class = class_name,
+          .feature = limits.feature,
+          .deviations = limits.deviations,
+          .size_range = limits.size_range,
+          .basis = word(limits.basis),
+          .table_revision = tables.revision().id};
 }
 
-void write_limits_members(JsonWriter& json, const standards::DesignatedLimits& limits) {
-  json.member("designation", limits.designation())
-      .member_mm("nominal_mm", limits.nominal)
-      .member("tolerance_class", limits.tolerance_class)
-      .member("feature", word(limits.feature))
-      .member_um("upper_deviation_um", limits.deviations.upper)
-      .member_um("lower_deviation_um", limits.deviations.lower)
-      .member_mm("upper_limit_mm", limits.upper_limit())
-      .member_mm("lower_limit_mm", limits.lower_limit())
-      .member_um("tolerance_um", limits.deviations.upper - limits.deviations.lower);
-  if (limits.size_range) {
-    json.key("size_range_mm")
-        .begin_object()
-        .member_mm("over", limits.size_range->over)
-        .member_mm("up_to", limits.size_range->up_to)
-        .end_object();
-  }
-  json.member("basis", word(app::LimitsBasis::Standard))
-      .member("table_revision", std::string_view(limits.standard->revision));
+LimitsAnswer limits_answer(const standards::DesignatedLimits& limits) {
+  return {.designation = limits.designation(),
+          .nominal = limits.nominal,
+          .tolerance_class = limits.tolerance_class,
+          .feature = limits.feature,
+          .deviations = limits.deviations,
+          .size_range = limits.size_range,
+          .basis = word(app::LimitsBasis::Standard),
+          .table_revision = limits.standard->revision};
 }
 
 std::string designation_text(Length nominal_size, std::string_view class_name) {
@@ -84,24 +66,9 @@ std::string quantity_words() {
 }
 
 schema::Fields limits_fields() {
-  const std::string range = schema::object(
-      {{"over", schema::number(), "Exclusive"}, {"up_to", schema::number(), "Inclusive"}});
-  return {
-      {"designation", schema::text(), "Size and class; absent with the limits of a drawing", false},
-      {"nominal_mm", schema::number(), "Nominal size"},
-      {"tolerance_class", schema::text(), "Absent for limits of a drawing", false},
-      {"feature", feature_words(),
-       "A hole is too small before it is too large, a shaft the other way"},
-      {"upper_deviation_um", schema::number(), "ES or es"},
-      {"lower_deviation_um", schema::number(), "EI or ei"},
-      {"upper_limit_mm", schema::number(), "Largest good size, inclusive"},
-      {"lower_limit_mm", schema::number(), "Smallest good size, inclusive"},
-      {"tolerance_um", schema::number(), "Upper minus lower limit"},
-      {"size_range_mm", range, "Step of the standard tolerance", false},
-      {"basis", schema::words({"iso286", "custom", "explicit", "standard"}),
-       "ISO 286, a custom tolerance class, a drawing, or a designation of another standard"},
-      {"table_revision", schema::text(), "The tables the limits were taken from", false},
-  };
+  BodySchema describe(Side::Answer);
+  members(describe, LimitsAnswer{});
+  return describe.fields();
 }
 
 schema::Fields verdict_fields() {

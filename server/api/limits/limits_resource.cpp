@@ -13,15 +13,12 @@ using iso286::ToleranceTables;
 Result<Response> limits_response(iso286::NominalSize size, std::string_view class_name,
                                  const ToleranceTables& tables) {
   const auto limits = TRY(tables.limits_of_size(size, class_name));
-  return tagged_json(
-      json_object([&](JsonWriter& json) { write_limits_members(json, limits, tables); }),
-      etag_of(tables));
+  return tagged_json(body_json(limits_answer(limits, tables)), etag_of(tables));
 }
 
 Result<Response> limits_response(const Result<standards::DesignatedLimits>& limits) {
   if (!limits) return limits.error();
-  return tagged_json(json_object([&](JsonWriter& json) { write_limits_members(json, *limits); }),
-                     etag_of(*limits->standard));
+  return tagged_json(body_json(limits_answer(*limits)), etag_of(*limits->standard));
 }
 
 Result<Response> limits_of_designation(const Request& request, const ToleranceTables& tables) {

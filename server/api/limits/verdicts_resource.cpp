@@ -65,13 +65,11 @@ Result<std::optional<ThermalCorrection>> correction_of(const Request& request,
 
 /// The limits of a designation of any standard.
 struct Limits {
-  iso286::Feature feature = iso286::Feature::Hole;
-  gauging::Quantity quantity = gauging::Quantity::Diameter;
-  Length nominal;
+  LimitsAnswer answer{};
   gauging::ConformanceLimits of;
-  bool has_envelope = false;
   std::string etag;
-  std::function<void(JsonWriter&)> write_members;
+  gauging::Quantity quantity = gauging::Quantity::Diameter;
+  bool has_envelope = false;
 };
 
 Result<Limits> limits_of(const Request& request, const iso286::ToleranceTables& tables) {
@@ -84,35 +82,27 @@ Result<Limits> limits_of(const Request& request, const iso286::ToleranceTables& 
     }
     const gauging::Quantity quantity = app::quantity_of(*limits);
     const bool is_distance = quantity == gauging::Quantity::Distance;
-    return Limits{
-        .feature = limits->feature,
-        .quantity = is_distance && request.text("feature") ? gauging::Quantity::Diameter : quantity,
-        .nominal = limits->nominal,
-        .of = {limits->upper_limit(), limits->lower_limit()},
-        .etag = etag_of(*limits->standard),
-        .write_members = [limits = *limits](JsonWriter& json) {
-          write_limits_members(json, limits);
-        }};
+    return Limits{.answer = limits_answer(*limits),
+                  .of = {limits->upper_limit(), limits->lower_limit()},
+                  .etag = etag_of(*limits->standard),
+                  .quantity = is_distance && request.text("feature") ? gauging::Quantity::Diameter
+                                                                     : quantity};
   }
   const auto designation = TRY(iso286::parse_designation(text));
-  const auto limits = tables.limits_of_size(designation.nominal_size, designation.class_name);
-  if (!limits) return limits.error();
-  return Limits{.feature = limits->feature,
-                .nominal = limits->nominal_size.length(),
-                .of = {limits->upper_limit(), limits->lower_limit()},
-                .has_envelope = designation.has_envelope,
+  const auto limits = TRY(tables.limits_of_size(designation.nominal_size, designation.class_name));
+  return Limits{.answer = limits_answer(limits, tables),
+                .of = {limits.upper_limit(), limits.lower_limit()},
                 .etag = etag_of(tables),
-                .write_members = [limits = *limits, &tables](JsonWriter& json) {
-                  write_limits_members(json, limits, tables);
-                }};
+                .has_envelope = designation.has_envelope};
 }
 
 Result<Response> verdict(const Request& request, const iso286::ToleranceTables& tables) {
   const auto limits = TRY(limits_of(request, tables));
-  if (const auto feature = request.text("feature"); feature && *feature != word(limits.feature)) {
+  if (const auto feature = request.text("feature");
+      feature && *feature != word(limits.answer.feature)) {
     return Error{ErrorCode::QueryInvalid,
                  fmt::format("{} belongs to a {}: remove feature", *request.text("designation"),
-                             word(limits.feature)),
+                             word(limits.answer.feature)),
                  "feature"};
   }
   MeasuredSize measured{.reading = *request.length("measured_mm")};
@@ -150,8 +140,8 @@ Result<Response> verdict(const Request& request, const iso286::ToleranceTables& 
     return Error{ErrorCode::QueryInvalid, "inside_corner is for radii and chamfers only",
                  "inside_corner"};
   }
-  const auto result = gauging::gauge({limits.quantity, limits.feature, is_inside}, limits.of.upper,
-                                     limits.of.lower, measured.decisive(), rule);
+  const auto result = gauging::gauge({limits.quantity, limits.answer.feature, is_inside},
+                                     limits.of.upper, limits.of.lower, measured.decisive(), rule);
   std::vector<Warning> warnings;
   for (const auto& [name, reason] : unused) {
     warnings.push_back({"query.unused", fmt::format("{} changes nothing {}", name, reason)});
@@ -159,8 +149,9 @@ Result<Response> verdict(const Request& request, const iso286::ToleranceTables& 
   warn_of_no_acceptance(rule, limits.of.upper - limits.of.lower, warnings);
   return tagged_json(
       json_object([&](JsonWriter& json) {
-        limits.write_members(json);
-        write_verdict_members(json, limits.nominal, measured, result);
+        BodyWriter write(json);
+        members(write, limits.answer);
+        write_verdict_members(json, limits.answer.nominal, measured, result);
         write_rule_members(json, rule, words, limits.of, measured.decisive());
         if (limits.has_envelope)
           json.member("envelope", app::kEnvelopeRequired).member("envelope_result", "not_verified");
