@@ -268,8 +268,7 @@ Outcome<ExitCode> follow_port(const Context& context, GaugeOptions options) {
 }
 
 /// `fitgauge gauge 25H7 25.013`: judges a value, and stores it with --record; the exit code is the
-/// verdict. With --serial judges line after line, until the port is gone or a value cannot be
-/// stored.
+/// verdict. With --serial judges each line, until the port is gone or a value is not stored.
 Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options) {
   const auto given = [&](std::size_t field) { return !options.fields.at(field).empty(); };
   if ((given(RowField::Upper) || given(RowField::Lower)) &&

@@ -8,8 +8,7 @@ namespace fitgauge::cli {
 /// The text of a verdict or of a record: the word, the value, the distance to the nearest limit.
 std::string format_verdict(const JsonValue& document, const Terminal& terminal);
 
-/// Returns the text to send for a measured value. @param typed mm, with a point or a comma. @errors
-/// Usage
+/// The text to send for a measured value. @param typed mm, with point or comma. @errors Usage
 Outcome<std::string> measured_text(const std::string& typed);
 
 /// Prints the record or verdict of an answer; the exit code is its verdict.

@@ -226,8 +226,7 @@ Outcome<ReadProgram> read_program(const Context& context, const std::string& fil
   return read;
 }
 
-/// The text of a conversion; prints its findings. @errors ProgramFailed for a block that cannot be
-/// converted.
+/// The text of a conversion; prints its findings. @errors ProgramFailed: a block has no such form.
 Outcome<std::string> text_of(const std::string& file, iso::Conversion converted) {
   for (const Diagnostic& found : converted.findings)
     fmt::print(stderr, "{}\n", klartext::render(found));

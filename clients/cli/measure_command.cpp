@@ -49,8 +49,7 @@ class Upload {
     if (!chunks) return chunks.error();
     auto chunk = state_.pending ? pending_chunk(*chunks) : chunks->next();
     while (chunk && *chunk) {
-      // The next rows of a file are read while the service stores these; a pipe may keep one
-      // waiting.
+      // The next rows of a file are read while the service stores these; a pipe may wait.
       auto upcoming = std::async(reads_ahead_ ? std::launch::async : std::launch::deferred,
                                  [&chunks] { return chunks->next(); });
       TRY(send(*chunks, **chunk));

@@ -113,8 +113,7 @@ Outcome<ExitCode> run_nc_ls(const Context& context, const std::string& prefix) {
               });
 }
 
-/// `nc put FILE… DESTINATION`: a destination that ends with a stroke is a folder, which several
-/// files need.
+/// `nc put FILE… DESTINATION`: several files need a folder, which ends with a stroke.
 Outcome<ExitCode> run_nc_put(const Context& context, const Words& paths) {
   const std::string& destination = paths.back();
   const std::vector<std::string> files(paths.begin(), paths.end() - 1);

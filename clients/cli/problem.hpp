@@ -28,8 +28,7 @@ std::optional<Problem> problem_of(const Answer& answer);
 /// @param url the address that answered
 Failure failure_of(const Answer& answer, const std::string& url);
 
-/// Returns whether the request may succeed if it is repeated soon: the service is busy, starting,
-/// or still at work.
+/// Returns whether to repeat the request soon: the service is busy, starting or still at work.
 bool is_temporary(const Answer& answer);
 
 /// Returns a response that is a success. @errors as failure_of().

@@ -35,8 +35,7 @@ struct Completion {
   std::string detail;
   Edit edit;  ///< its text is a snippet of LSP
 };
-/// Cycles with their parameters, in a cycle the parameters that it lacks, and first words of
-/// blocks.
+/// Cycles with their parameters, in a cycle those that it lacks, and first words of blocks.
 std::vector<Completion> completions(const EditedText& text, Place cursor);
 
 /// Formats like `nc format`. @errors FieldInvalid for a program with errors.

@@ -11,8 +11,7 @@ struct Remedy {
   bool is_preferred = true;
 };
 
-/// The remedies of a finding and those of its code; for a warning or note also a comment that
-/// silences it.
+/// The remedies of a finding and those of its code; also a silencing comment for a warning or note.
 std::vector<Remedy> remedies(const EditedText& text, const klartext::Diagnostic& found);
 
 }  // namespace fitgauge::cli

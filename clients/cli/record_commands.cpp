@@ -114,8 +114,7 @@ struct NoteOptions {
   std::string operator_name;
 };
 
-/// `fitgauge note m17 --cause … --measure …`: adds a note to a measurement; without options prints
-/// its notes.
+/// `fitgauge note m17 --cause … --measure …`: adds a note, or without options prints the notes.
 Outcome<ExitCode> run_note(const Context& context, const NoteOptions& options) {
   const std::string target = "/v1/measurements/" + percent_encoded(options.id) + "/notes";
   if (options.cause.empty() && options.measure.empty() && options.text.empty()) {

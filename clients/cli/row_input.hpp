@@ -6,8 +6,7 @@
 
 namespace fitgauge::cli {
 
-/// Converts a DFQ, a QIF, NDJSON or a table of the shop for the service, from front to back in
-/// bounded memory.
+/// Converts a DFQ, a QIF, NDJSON or a table of the shop for the service, in bounded memory.
 class RowInput {
  public:
   /// Returns whether the input is a table, by its name and options.

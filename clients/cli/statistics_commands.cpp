@@ -92,8 +92,7 @@ Outcome<std::string> body_of(const StatisticsOptions& options) {
       .text();
 }
 
-/// `cp.value 1.70` for every number, text and truth of the document; of long lists how many there
-/// are.
+/// `cp.value 1.70` for every number, text and truth of the document; of long lists their length.
 void print_members(const Context& context, const std::string& name, const JsonValue& value) {
   constexpr std::size_t kShown = 10;
   const std::string prefix = name.empty() ? "" : name + ".";

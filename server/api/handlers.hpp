@@ -4,8 +4,7 @@
 
 namespace fitgauge::api {
 
-/// As TRY in a function that answers: gives the value of a result, or returns after its error was
-/// sent to the responder.
+/// As TRY in a function that answers: gives the value of a result, or sends its error and returns.
 #define TRY_OR_FAIL(responder, ...)                                  \
   __extension__({                                                    \
     auto tried_ = (__VA_ARGS__);                                     \

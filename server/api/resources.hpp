@@ -6,8 +6,7 @@
 
 namespace fitgauge::api {
 
-/// The routes of all resources; one function adds the routes of each. The services must outlive
-/// them.
+/// The routes of all resources; one function adds those of each. The services outlive them.
 class Routes {
  public:
   using Handler = void (*)(const Services&, const Request&, Responder);
@@ -58,8 +57,7 @@ inline http::BodyRules json_body(std::string schema) {
 
 /// Adds the routes of a resource.
 using AddRoutes = void(Routes& add);
-/// /v1/limits, /v1/fits, /v1/gauges, /v1/standards, /v1/press-fits and /v1/verdicts: nothing is
-/// stored.
+/// /v1/limits, /v1/fits, /v1/gauges, /v1/standards, /v1/press-fits, /v1/verdicts: nothing stored.
 AddRoutes add_limits_routes, add_fits_routes, add_gauges_routes, add_standards_routes,
     add_press_fits_routes, add_verdicts_routes;
 /// /v1/tables as JSON, CSV and in the control's form, and a shop's own columns.
@@ -78,8 +76,7 @@ AddRoutes add_plans_routes, add_catalogues_routes, add_files_routes, add_setups_
 /// /v1/events, the health checks, /metrics and the web page.
 AddRoutes add_events_routes, add_service_routes, add_page_routes;
 
-/// The plan that a part is checked against, if one alone fits, and its characteristics without a
-/// value.
+/// The plan of a part, if one alone fits, and its characteristics without a value.
 struct PlanOfPart {
   std::optional<std::string> plan{};
   std::vector<std::string> missing{};
@@ -92,8 +89,7 @@ void find_plan_of(const Services& services, std::string_view part,
 /// @param of_plant, schemas the routes and the components of the rooms above
 http::RouteTable make_routes(Routes of_plant, const Schemas& schemas);
 
-// The components of /openapi.json: each room describes the bodies it reads and the answers it
-// gives.
+// The components of /openapi.json: each room describes its bodies and answers.
 
 using AddSchemas = void(Schemas& schemas);
 AddSchemas add_limits_schemas, add_gauges_schemas, add_statistics_schemas, add_uncertainty_schemas,
@@ -128,8 +124,7 @@ inline std::string source_words() { return schema::words({"gauge", "simulation"}
 
 /// The content of examples.json.
 extern const std::string_view kExamples;
-/// Gives each schema its example: from examples.json, or from its members and the examples of their
-/// schemas.
+/// Gives each schema its example: from examples.json, or from the examples of its members.
 void add_examples(Schemas& schemas);
 
 /// The OpenAPI 3.1 document of the routes. @param of_plant as make_schemas

@@ -40,8 +40,7 @@ void hand_over_memory(std::int64_t bytes) { held += bytes; }
 
 }  // namespace fitgauge
 
-// Defines all forms, so that a sanitizer's runtime defines none: it would miss memory of other
-// forms.
+// Defines all forms, so that a sanitizer's runtime defines none: it would miss the others.
 
 void* operator new(std::size_t size) {
   return taken([size] { return std::malloc(size == 0 ? 1 : size); });

@@ -4,8 +4,7 @@ namespace fitgauge {
 
 inline constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
-/// An instant in UTC, in nanoseconds since 1970-01-01T00:00:00Z without leap seconds (1678 to
-/// 2261).
+/// An instant in UTC: nanoseconds since 1970-01-01T00:00:00Z without leap seconds (1678 to 2261).
 struct Timestamp {
   std::int64_t nanoseconds = 0;
 

@@ -31,8 +31,7 @@ struct CsvCell {
 };
 
 /// Reads CSV (RFC 4180) with `,` or `;` between the cells, whichever the header line has; LF, CRLF
-/// and a byte-order mark are accepted. The texts of cells stay valid as long as the reader and the
-/// text it reads.
+/// and a byte-order mark are accepted. Cells stay valid as long as the reader and its text.
 class CsvReader {
  public:
   /// @errors TextEncoding, CsvMalformed (no header line).

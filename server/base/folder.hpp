@@ -42,8 +42,7 @@ class Folder {
 
   /// Calls `visit` for the names of all entries until it returns false.
   Result<void> list(const std::function<bool(const std::string& name)>& visit) const;
-  /// Returns the kind of an entry: of a link itself, not of its target. @returns none without an
-  /// entry.
+  /// The kind of an entry: of a link itself, not of its target. @returns none if there is none.
   std::optional<struct stat> look(const std::string& name) const;
   /// A regular file, to read. @returns none when there is no entry or another kind of entry.
   Result<std::optional<Descriptor>> read(const std::string& name) const;

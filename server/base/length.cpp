@@ -133,8 +133,7 @@ Result<std::int64_t> parse_decimal(std::string_view text, const DecimalSyntax& s
     return error_of(ErrorCode::NumberOutOfRange, text, "is too large");
   };
 
-  // value * 10^scale = digits * 10^(shift - count of digits): `kept` digits remain, the rest is
-  // finer.
+  // value * 10^scale = digits * 10^(shift - count of digits): `kept` digits remain.
   std::size_t first = 0;
   while (first < parts.digits() && parts.digit(first) == 0) ++first;
   if (first == parts.digits()) return std::int64_t{0};

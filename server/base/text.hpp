@@ -16,8 +16,7 @@ constexpr std::optional<E> enum_of(std::string_view text, const auto& words, int
   return static_cast<E>(found - std::ranges::begin(words) + first);
 }
 
-/// Reads the whole text as a number, without blanks or a plus sign; none for other texts or out of
-/// range.
+/// Reads the whole text as a number, without blanks or a plus sign; none if it is no such number.
 template <class T>
 std::optional<T> read_number(std::string_view text, int base = 10) {
   T value{};
@@ -31,8 +30,7 @@ std::optional<T> read_number(std::string_view text, int base = 10) {
   return read.ec == std::errc() && read.ptr == end ? std::optional(value) : std::nullopt;
 }
 
-/// The offset of the first byte that is not valid UTF-8 (RFC 3629: no surrogates, no overlong
-/// forms), or npos.
+/// The offset of the first byte that is not valid UTF-8 (RFC 3629), or npos.
 std::size_t find_invalid_utf8(std::string_view text);
 
 inline bool is_utf8(std::string_view text) {
@@ -46,8 +44,7 @@ inline std::string_view first_characters(std::string_view text, std::size_t most
   return text.substr(0, find_invalid_utf8(text));
 }
 
-/// Windows-1252 as UTF-8; the five bytes it does not define become the C1 controls of the same
-/// number.
+/// Windows-1252 as UTF-8; its five undefined bytes become C1 controls.
 std::string utf8_from_windows1252(std::string_view bytes);
 
 constexpr char ascii_upper(char c) {
@@ -84,8 +81,7 @@ inline std::vector<std::string_view> split(std::string_view text, char separator
 /// Whether a name is of a pattern with `*` and `?`; letters count in either case.
 bool matches_glob(std::string_view pattern, std::string_view name);
 
-/// Whether XML 1.0 can hold a UTF-8 text: no control characters except tab and line ends, no U+FFFE
-/// and U+FFFF.
+/// Whether XML 1.0 can hold a UTF-8 text: no controls except tab and line ends, no U+FFFE, U+FFFF.
 bool is_xml_text(std::string_view text);
 
 /// Escapes `text` as content of an element or an attribute. Tabs and line ends become references,

@@ -5,8 +5,7 @@
 
 namespace fitgauge {
 
-/// Bounded first-in first-out queue between threads: adding returns at once if it is full, taking
-/// waits. Thread-safe.
+/// Bounded FIFO between threads: adding returns at once if it is full, taking waits. Thread-safe.
 template <class Item>
 class BoundedQueue {
  public:
@@ -95,15 +94,13 @@ class WorkerPool {
   WorkerPool& operator=(WorkerPool&&) = delete;  // neither copied nor moved
   ~WorkerPool();
 
-  /// Queues a job. @returns nothing when the queue is full or the pool is stopping; the job is then
-  /// not run.
+  /// Queues a job. @returns nothing, and runs nothing, when the queue is full or the pool stops.
   [[nodiscard]] std::optional<Ticket> submit(Job job);
 
   /// Removes a job that has not begun. @returns false if it has begun or ended.
   [[nodiscard]] bool withdraw(Ticket ticket);
 
-  /// Refuses new jobs, finishes the queued ones and ends the threads. Not for the pool's own
-  /// threads.
+  /// Refuses new jobs, finishes the queued ones and ends the threads. Not for its own threads.
   void stop();
 
  private:

@@ -33,8 +33,7 @@ using ArgumentValue = std::variant<std::string_view, std::int64_t, Length, Times
 
 /// One request whose route is found and whose parameters are checked. Its views point to a head
 /// that does not move while the body is read. They are valid until the request is answered; in an
-/// asynchronous handler, as long as its Responder. The engine fills it; one thread reads it at a
-/// time.
+/// asynchronous handler, as long as its Responder. The engine fills it; single-threaded.
 class Request {
  public:
   Method method() const { return method_; }
@@ -49,8 +48,7 @@ class Request {
   std::optional<std::string> header_list(std::string_view name) const;
 
   /// Return the argument of a parameter in path, query or header by its name; empty if an optional
-  /// one is absent. An undeclared parameter, or another type than declared, is a bug:
-  /// std::logic_error.
+  /// one is absent. Throws std::logic_error for an undeclared name or type.
   std::optional<std::string_view> text(std::string_view name) const;
   bool has(std::string_view name) const { return argument(name).has_value(); }
   std::optional<std::int64_t> integer(std::string_view name) const;  ///< Integer and Decimal
@@ -88,8 +86,7 @@ class Request {
   /// Returns whether it came by the listener for health checks: see ListenAddress::health_only.
   bool is_health_only() const { return peer_->health_only; }
   /// Returns the origin that the client addressed, `https://host:port` or `http://…`, to compare
-  /// with Origin. A proxy that ends TLS sets X-Forwarded-Proto; a page of another site cannot send
-  /// it unasked.
+  /// with Origin. A proxy that ends TLS sets X-Forwarded-Proto; other sites cannot send it unasked.
   std::string own_origin() const;
   /// Returns the request's Origin if it is in ServerOptions::allowed_origins, or an empty text.
   std::string_view allowed_origin() const { return allowed_origin_; }

@@ -18,8 +18,7 @@ struct CertificateOrder {
   std::string own_origin{};  ///< `http://host:port`, for the QR code
 };
 
-/// Collects the measurements of a certificate while they are read, then writes it. One thread at a
-/// time.
+/// Collects the measurements of a certificate while they are read, then writes it. Single-threaded.
 class CertificateDraft {
  public:
   explicit CertificateDraft(CertificateOrder order) : order_(std::move(order)) {}

@@ -39,8 +39,7 @@ Response written(CertificateDraft& draft, Timestamp now, const std::string& chec
   return std::move(response).with("Content-Disposition", "inline; filename=\"certificate.pdf\"");
 }
 
-/// Has the measurements: requests a head that covers them, then writes the report, which may be
-/// slow.
+/// Requests a head that covers the measurements, then writes the report, which may be slow.
 void finish(const Services& services, const std::shared_ptr<CertificateDraft>& draft,
             const SharedResponder& shared) {
   const auto last = TRY_OR_FAIL(*shared, services.measurements.parse_id(draft->last_id()));

@@ -111,8 +111,7 @@ using WriteStored = std::function<void(JsonWriter&)>;
 /// Reads the values that the filters of a request select, for the probability of interference from
 /// their location and spread.
 /// @param done receives the writer of the result; QueryInvalid if holes or shafts are not selected;
-/// LimitsMixed if their limits are not the fit's; the errors of a capability with the name of the
-/// side
+/// LimitsMixed if their limits are not the fit's; errors of a capability by side
 void read_fit_of_values(const Services& services, const Request& request, const iso286::Fit& fit,
                         std::function<void(Result<WriteStored>)> done) {
   auto holes = side_query(services, request, kHole);
@@ -191,8 +190,7 @@ Result<iso286::Fit> find_fit(const iso286::FitDesignation& designation,
   return iso286::Fit{hole, shaft};
 }
 
-/// Reads `25 H7/g6`, and with a bearing `25 ISO 492-P6/k6` (its bore) or `52 H7/ISO 492-P6` (its
-/// outer ring).
+/// Reads `25 H7/g6`; of a bearing `25 ISO 492-P6/k6` (bore) or `52 H7/ISO 492-P6` (outer ring).
 Result<iso286::FitDesignation> read_fit(std::string_view hole, std::string_view shaft) {
   hole = trim(hole);
   shaft = trim(shaft);
@@ -236,8 +234,7 @@ Result<iso286::FitDesignation> of_one_segment(const Request& request) {
   return read_fit(text.substr(0, stroke), text.substr(stroke + 1));
 }
 
-/// The fit of a designation: from the tables and cached, and with stored values if a query selects
-/// them.
+/// The fit of a designation: from the tables and cached, or with the stored values of a query.
 template <class Designation>
 http::AsyncHandler answer_fit(const Routes& add, Designation designation_of) {
   auto from_tables = ResponseCache::of_revision(

@@ -59,8 +59,7 @@ bool is_without_feature(const JsonValue& body) {
   return said && !gauging::has_feature(*said);
 }
 
-/// A correction without limits keeps the applied ones; a correction with some limits copies the
-/// others.
+/// A correction without limits keeps the applied ones; with some limits it copies the others.
 void take_over_limits(MeasurementRowReader& reader, const JsonValue& body,
                       const app::Measurement& original) {
   if (!names_any(body, kLimitsFields)) return reader.take_limits(original);

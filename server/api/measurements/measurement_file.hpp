@@ -6,8 +6,7 @@
 
 namespace fitgauge::api {
 
-/// Measurements as a file that is made whole before its first byte is sent. Used by one thread at a
-/// time.
+/// Measurements as a file that is made whole before its first byte is sent. Single-threaded.
 class MeasurementFile {
  public:
   /// Maximum number of rows in a file, because it is made in memory.

@@ -7,8 +7,7 @@
 
 namespace fitgauge::api {
 
-// The forms of a setup's members: lengths are exact decimals of mm or µm and doubles of the
-// machine.
+// The forms of a setup's members: lengths are exact decimals, and doubles of the machine.
 
 using Mm = Millimetres;
 using Um = Micrometres;
@@ -109,8 +108,7 @@ void builder_members(auto& v) {
              "Cycles of the machine's builder, by number: `ignore`, or an object with `call`");
 }
 
-/// Names `decimal_separator`, `fn16_default_path` and `active_datum_table`, which decode_builder
-/// reads.
+/// Names `decimal_separator` and the two paths, which decode_builder reads.
 void printing_members(auto& v) {
   std::nullptr_t elsewhere{};
   v.optional("decimal_separator", elsewhere, Elsewhere{decimal_separator_schema()},

@@ -92,8 +92,7 @@ std::string write_tail(std::size_t dropped, const std::optional<app::WatchedBloc
   return tail + '}';
 }
 
-/// Members that only some moves have, or that may be null, and whether they are points: each has
-/// its columns in every CSV.
+/// Members that some moves lack, and whether they are points: each has columns in every CSV.
 constexpr std::pair<std::string_view, bool> kOptional[] = {
     {"contact_mm", true},         {"center_mm", true},
     {"sweep_deg", false},         {"axis", false},

@@ -62,8 +62,7 @@ class Metrics {
   /// A problem document was answered.
   void count(ErrorCode code);
 
-  /// Writes metrics of a source; called on any thread, must not block. Its data must live as long
-  /// as the server.
+  /// Writes metrics of a source, on any thread, without blocking. Its data outlive the server.
   using Source = std::function<void(Exposition&)>;
   void add(Source source);
 

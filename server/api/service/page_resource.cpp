@@ -11,8 +11,7 @@ using PageFiles = std::map<std::string, Prepared, std::less<>>;
 
 constexpr std::string_view kEntry = "index.html";
 
-/// The page loads nothing from other sites, runs only its scripts, and cannot be framed by another
-/// site.
+/// The page loads nothing from other sites, runs only its scripts, and is in no frame of another.
 constexpr std::string_view kPolicy =
     "default-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'";

@@ -70,8 +70,7 @@ struct CorrectedParts {
     }
   }
 
-  /// Returns the distance from the target to the nearer limit, in µm; at most 0 if the target is
-  /// not a good size.
+  /// Distance from the target to the nearer limit, in µm; at most 0 if it is not a good size.
   double half_tolerance() const {
     const double below = lower ? static_cast<double>((*target - *lower).count()) : INFINITY;
     const double above = upper ? static_cast<double>((*upper - *target).count()) : INFINITY;

@@ -19,8 +19,7 @@ struct OneMore {
   }
 };
 
-/// Members of every method. The tolerance belongs to the parts; with the model `auto` the method
-/// chooses.
+/// Members of every method. The tolerance is of the parts; `auto` lets the method choose.
 struct StudyChoices {
   StudyModel model = StudyModel::Auto;
   std::optional<metrology::Exact> tolerance{};

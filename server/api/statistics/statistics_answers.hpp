@@ -8,8 +8,7 @@
 
 namespace fitgauge::api {
 
-// Responses of /v1/statistics that stored values also have. Figures have 17 significant digits; an
-// undefined figure is null.
+// Responses of /v1/statistics that stored values also have. Figures have 17 digits, or are null.
 
 /// Members of a chart's order that only some kinds use, of values that are sent or stored.
 inline constexpr std::array<Applicable, 3> kChartMembers = {{

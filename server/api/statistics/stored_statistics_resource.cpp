@@ -172,8 +172,7 @@ std::vector<Parameter> chart_parameters() {
 constexpr std::size_t kPointRoom = 32;  ///< for any double, and the comma before it
 
 /// Writes a point of a measured value, a decimal of nanometres. Up to 15 digits that decimal is the
-/// shortest text that reads back as the same double, and is found faster. @returns the end of its
-/// text
+/// shortest text that reads back as the same double, and is found faster. @returns its end
 char* write_point(char* to, double point) {
   constexpr double kNanometresOfOne = 1e6;
   constexpr double kMost = 1e15;

@@ -11,8 +11,7 @@ namespace fitgauge::api {
 
 metrology::Exact exact_mm(Length length);
 
-/// Ids of measurements, in four bytes each: consecutive ids mostly belong to one folder, and their
-/// numbers rise.
+/// Ids of measurements, in four bytes each: neighbours mostly are of one folder and rise.
 class MeasurementIds {
  public:
   void add(std::int64_t number, std::string_view origin);
@@ -65,8 +64,7 @@ struct SelectedValues : Selection {
   std::vector<std::string> subgroups{};  ///< otherwise the names of the subgroups
 };
 
-/// Collects values as they are read. Its memory is bounded: 20 bytes a value, and the names of the
-/// subgroups.
+/// Collects values as they are read. Needs 20 bytes a value, and the subgroup names.
 class ValueSelection {
  public:
   static constexpr std::size_t kMostBytes = std::size_t{48} << 20;

@@ -5,8 +5,7 @@
 
 namespace fitgauge::api {
 
-/// The sender of a request, from the guard: the name of an API key, or empty if none is
-/// needed.
+/// The sender of a request, from the guard: the name of an API key, or empty.
 struct Caller {
   std::string name;
   std::int64_t key = 0;  ///< of app::KeyService

@@ -5,8 +5,7 @@
 
 namespace fitgauge::api {
 
-/// A request member that only some kinds of the request use. Other kinds refuse it, because it
-/// would have no effect.
+/// A request member that only some kinds of the request use; others refuse it as without effect.
 struct Applicable {
   std::string_view member;
   std::string_view kinds;     ///< kinds that use it: `xbar_r xbar_s`

@@ -178,8 +178,7 @@ void pack(Response& response, SentAnswer& sent) {
   response.body = StreamedBody{.source = std::make_shared<TextStream>(owner, body), .held = held};
 }
 
-/// Whether there is a gzip form. A short response has one only for a client that accepts nothing
-/// else.
+/// Whether there is a gzip form. A short response has one only if nothing else is accepted.
 struct PackedForm {
   bool exists = false;
   bool is_sent = false;

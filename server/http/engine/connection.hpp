@@ -158,8 +158,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Peer& peer() { return peer_; }
 
   virtual void read_some(std::span<char> room) = 0;  ///< then on_read
-  /// Reads the bytes that have arrived; would_block if there are none or the
-  /// transport does not know.
+  /// Reads the bytes that have arrived; would_block if none, or unknown.
   virtual std::size_t read_now(std::span<char> room, error_code& error);
   /// Whether unread bytes have arrived; false if the transport does not know.
   virtual bool has_unread() const noexcept { return false; }
