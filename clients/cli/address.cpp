@@ -34,10 +34,9 @@ Outcome<std::string> service_url(std::string_view text) {
   while (url.ends_with('/')) url.pop_back();
   const bool known = url.starts_with("http://") || url.starts_with("https://");
   if (known && !host_of(url + '/').empty()) return url;
-  return Failure{
-      ExitCode::Usage,
-      fmt::format("the address of the service must be such as http://127.0.0.1:8286; got '{}'",
-                  text)};
+  return Failure::of(ExitCode::Usage,
+                     "the address of the service must be such as http://127.0.0.1:8286; got '{}'",
+                     text);
 }
 
 bool is_loopback(std::string_view url) {

@@ -28,6 +28,11 @@ struct Context {
 
   /// Prints a remark for the user.
   void note(std::string_view text) const { fmt::print(stderr, "fitgauge: {}\n", text); }
+  template <class... Arguments>
+  void note(fmt::format_string<Arguments...> format, Arguments&&... arguments) const
+      requires(sizeof...(Arguments) > 0) {
+    note(fmt::format(format, std::forward<Arguments>(arguments)...));
+  }
 
   /// Sends a request once. @errors also those of a response that is no success.
   Outcome<Answer> send(const Request& request) const {

@@ -51,9 +51,8 @@ Outcome<LinkClient> connect(const std::string& address,
                             std::initializer_list<std::string_view> logins) {
   const auto parsed = control_link::parse_control_address(address);
   if (!parsed) {
-    return Failure{
-        ExitCode::Usage,
-        fmt::format("address of the control must be HOST or HOST:PORT; got '{}'", address)};
+    return Failure::of(ExitCode::Usage,
+                       "address of the control must be HOST or HOST:PORT; got '{}'", address);
   }
   auto control = LinkClient::connect({.address = *parsed});
   if (!control) return failure_of(control.error());
@@ -283,8 +282,7 @@ Outcome<ExitCode> run_control_put(const Context& context, const ControlPutOption
   const std::string& destination = options.words.back();
   const std::vector<std::string> files(options.words.begin() + 1, options.words.end() - 1);
   if (files.size() > 1 && !destination.ends_with('\\') && !destination.ends_with('/')) {
-    return Failure{ExitCode::Usage,
-                   fmt::format("several files need a folder: write {}/", destination)};
+    return Failure::of(ExitCode::Usage, "several files need a folder: write {}/", destination);
   }
   auto control = TRY(connect(options.words.front(), {"FILE"}));
   for (const std::string& file : files) {
@@ -310,11 +308,10 @@ Outcome<ExitCode> run_control_run(const Context& context, const Words& words) {
   const auto identity = control.identity();
   if (!identity) return failure_of(identity.error());
   if (identity->plc != control_link::kVirtualPlc) {
-    return Failure{
+    return Failure::of(
         ExitCode::Refused,
-        fmt::format(
-            "{} at {} is a real control: start the program at the machine, LSV-2 has no NC start",
-            identity->control, address)};
+        "{} at {} is a real control: start the program at the machine, LSV-2 has no NC start",
+        identity->control, address);
   }
   TRY(log_in(control, {"FILE", "DNC", "PLCDEBUG"}));
   const std::string path = control_path(words[1]);
@@ -323,16 +320,15 @@ Outcome<ExitCode> run_control_run(const Context& context, const Words& words) {
   if (!started) return failure_of(path, started.error());
   const auto state = TRY(wait_for_end(control));
   const auto errors = TRY(read_errors(control));
-  for (const auto& error : errors) context.note(fmt::format("{}: {}", error.number, error.text));
+  for (const auto& error : errors) context.note("{}: {}", error.number, error.text);
   if (state != ProgramState::Finished) {
     const bool is_missed = std::ranges::any_of(
         errors, [](const auto& error) { return error.number == kNothingTouched; });
-    return Failure{
-        ExitCode::ProgramFailed,
-        fmt::format("{} ended with status {}{}", path, name_of(state),
-                    is_missed ? ": if the machine has no workpiece, start fitgauged with a setup "
-                                "(--control-setup)"
-                              : "")};
+    return Failure::of(ExitCode::ProgramFailed, "{} ended with status {}{}", path, name_of(state),
+                       is_missed
+                           ? ": if the machine has no workpiece, start fitgauged with a setup "
+                             "(--control-setup)"
+                           : "");
   }
   if (!context.json) context.print("{} {}\n", path, name_of(state));
   return ExitCode::Good;

@@ -145,9 +145,9 @@ Outcome<std::optional<CsvChunk>> CsvChunks::next() {
   }
   if (rows > 0) return take(size, rows, lines);
   if (ended_ && size == buffer_.size()) return std::nullopt;
-  return Failure{ExitCode::LocalFile,
-                 fmt::format("line {}: the row is too long for a request; is a quote missing?",
-                             position_.lines + lines + 1)};
+  return Failure::of(ExitCode::LocalFile,
+                     "line {}: the row is too long for a request; is a quote missing?",
+                     position_.lines + lines + 1);
 }
 
 Outcome<std::optional<CsvChunk>> CsvChunks::next_until(const CsvPosition& end) {

@@ -55,18 +55,16 @@ constexpr std::chrono::milliseconds kCut{200};
 constexpr std::string_view kLineEnds = "\r\n";
 
 Failure failed(const std::string& path, std::string_view what) {
-  return {ExitCode::LocalFile,
-          fmt::format("{}: {}: {}", path, what, std::system_category().message(errno))};
+  return Failure::of(ExitCode::LocalFile, "{}: {}: {}", path, what,
+                     std::system_category().message(errno));
 }
 
 Outcome<SerialPort> SerialPort::open(const std::string& path, unsigned baud) {
   const auto speed = std::ranges::find(kSpeeds, baud, &std::pair<unsigned, speed_t>::first);
   if (speed == kSpeeds.end()) {
-    return Failure{
+    return Failure::of(
         ExitCode::Usage,
-        fmt::format(
-            "--baud must be one of: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200; got {}",
-            baud)};
+        "--baud must be one of: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200; got {}", baud);
   }
   // Without O_NONBLOCK an open waits for a carrier, which a gauge does not send.
   Descriptor port(::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
@@ -224,9 +222,8 @@ constexpr const char* kLine = R"((?:\d\dA)?\s*([+-]?\d+(?:[.,]\d+)?)\s*(?:mm)?)"
 Outcome<std::regex> pattern_of(const std::string& pattern) try {
   return std::regex(pattern.empty() ? kLine : pattern);
 } catch (const std::regex_error& wrong) {
-  return Failure{
-      ExitCode::Usage,
-      fmt::format("--pattern must be a regular expression; got '{}': {}", pattern, wrong.what())};
+  return Failure::of(ExitCode::Usage, "--pattern must be a regular expression; got '{}': {}",
+                     pattern, wrong.what());
 }
 
 std::optional<std::string> value_in(const std::string& line, const std::regex& pattern) {
@@ -251,8 +248,8 @@ Outcome<ExitCode> follow_port(const Context& context, GaugeOptions options) {
     const auto line = TRY(port.next());
     const auto value = line.whole ? value_in(line.text, pattern) : std::nullopt;
     if (!value || !measured_text(*value)) {
-      context.note(fmt::format("{}: '{}' is not a value{}", options.serial, line.text,
-                               line.whole ? "" : ": it is incomplete"));
+      context.note("{}: '{}' is not a value{}", options.serial, line.text,
+                   line.whole ? "" : ": it is incomplete");
       continue;
     }
     options.fields[RowField::MeasuredAt] = format_rfc3339(SystemClock().now());
@@ -289,9 +286,8 @@ Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options)
 Outcome<ExitCode> verdict_exit_code(std::string_view word) {
   const auto found = std::ranges::find(kVerdicts, word, &VerdictWord::word);
   if (found != kVerdicts.end()) return found->exit_code;
-  return Failure{
-      ExitCode::NoAnswer,
-      fmt::format("unknown verdict '{}' from the service: use a fitgauge of its version", word)};
+  return Failure::of(ExitCode::NoAnswer,
+                     "unknown verdict '{}' from the service: use a fitgauge of its version", word);
 }
 
 Colour verdict_colour(std::string_view word) {
@@ -320,8 +316,8 @@ std::string format_verdict(const JsonValue& document, const Terminal& terminal) 
 Outcome<std::string> measured_text(const std::string& typed) {
   const auto measured = parse_length_mm(typed, {.decimal_comma = true, .round_to_nearest = true});
   if (measured) return format_mm(*measured);
-  return Failure{ExitCode::Usage, fmt::format("the measured value must be in mm; got '{}': {}",
-                                              typed, measured.error().message)};
+  return Failure::of(ExitCode::Usage, "the measured value must be in mm; got '{}': {}", typed,
+                     measured.error().message);
 }
 
 Outcome<ExitCode> show_verdict(const Context& context, const Answer& answer) {

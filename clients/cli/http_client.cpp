@@ -91,8 +91,8 @@ Outcome<Answer> HttpClient::perform(const Request& request, const Sink* sink) {
 
   const CURLcode code = handle.perform();
   if (code != CURLE_OK && !reading.ended_by_sink) {
-    return Failure{ExitCode::NoAnswer, fmt::format("no answer from {}: {}; {}", connection_.url,
-                                                   handle.reason(code), advice_for(code))};
+    return Failure::of(ExitCode::NoAnswer, "no answer from {}: {}; {}", connection_.url,
+                       handle.reason(code), advice_for(code));
   }
   reading.answer.status = handle.status();
   reading.answer.content_type = handle.content_type();

@@ -17,7 +17,7 @@ constexpr std::size_t kReadSize = std::size_t{64} << 10;
 constexpr int kMostLinks = 40;  // as Linux follows
 
 Failure failed(const std::string& name, const char* what) {
-  return {ExitCode::LocalFile, fmt::format("{}: cannot {}: {}", name, what, std::strerror(errno))};
+  return Failure::of(ExitCode::LocalFile, "{}: cannot {}: {}", name, what, std::strerror(errno));
 }
 
 namespace fs = std::filesystem;
@@ -208,9 +208,8 @@ Outcome<void> OutputFile::finish() {
   if (good) return {};
   if (failure_.empty()) failure_ = std::strerror(errno);
   const bool is_standard = path_.empty() || path_ == "-";
-  return Failure{
-      ExitCode::LocalFile,
-      fmt::format("{}: cannot write it: {}", is_standard ? "standard output" : path_, failure_)};
+  return Failure::of(ExitCode::LocalFile, "{}: cannot write it: {}",
+                     is_standard ? "standard output" : path_, failure_);
 }
 
 Outcome<void> write_file(const std::string& path, std::string_view bytes) {

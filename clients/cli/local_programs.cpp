@@ -282,9 +282,9 @@ Outcome<ExitCode> run_nc_convert(const Context& context, const ConvertOptions& o
         "exactly one of the two files must have the ending .i (DIN/ISO): nc convert bore.i bore.h"};
   const auto read = TRY(read_program(context, options.file, options.from_control));
   if (read.is_iso != is_iso)
-    return Failure{ExitCode::LocalFile,
-                   fmt::format("{} contains {}, which does not match its name: rename it",
-                               options.file, is_iso ? "Klartext" : "DIN/ISO")};
+    return Failure::of(ExitCode::LocalFile,
+                       "{} contains {}, which does not match its name: rename it", options.file,
+                       is_iso ? "Klartext" : "DIN/ISO");
   const auto text = TRY(text_of(options.file, is_iso ? iso::to_klartext(read.program, ".I")
                                                      : iso::to_iso(read.program, ".H")));
   TRY(may_replace(options.target, options.force));
@@ -305,18 +305,17 @@ Outcome<Levels> read_levels(const std::vector<std::string>& written) {
       if (said == word(each)) severity = each;
     }
     if (!severity && said != "off") {
-      return Failure{
-          ExitCode::Usage,
-          fmt::format("--level must be CODE= and one of: off, note, warning, error; got '{}'",
-                      level)};
+      return Failure::of(ExitCode::Usage,
+                         "--level must be CODE= and one of: off, note, warning, error; got '{}'",
+                         level);
     }
     const std::string code = level.substr(0, equals);
     const auto* known = std::ranges::find(kCodes, code, &Code::id);
     if (known == std::end(kCodes))
-      return Failure{ExitCode::Usage, fmt::format("--level: unknown finding '{}'", code)};
+      return Failure::of(ExitCode::Usage, "--level: unknown finding '{}'", code);
     if (known->is_error)
-      return Failure{ExitCode::Usage,
-                     fmt::format("--level: '{}' is always an error: correct the program", code)};
+      return Failure::of(ExitCode::Usage, "--level: '{}' is always an error: correct the program",
+                         code);
     levels[code] = severity;
   }
   return levels;

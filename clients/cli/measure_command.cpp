@@ -135,22 +135,24 @@ class Upload {
   }
 
   Failure other_server(const MeasureState& last) const {
-    return {ExitCode::LocalFile, fmt::format("{}: the state belongs to {}: give another file with "
-                                             "--state, or send all rows with --again",
-                                             journal_.path(), last.server)};
+    return Failure::of(ExitCode::LocalFile,
+                       "{}: the state belongs to {}: give another file with "
+                       "--state, or send all rows with --again",
+                       journal_.path(), last.server);
   }
 
   Failure row_has_grown(std::uint64_t line) const {
-    return {ExitCode::LocalFile,
-            fmt::format("{}: line {} was continued after it was stored: restore the line, correct "
-                        "its measurement, and write new rows on new lines",
-                        name_, line)};
+    return Failure::of(ExitCode::LocalFile,
+                       "{}: line {} was continued after it was stored: restore the line, correct "
+                       "its measurement, and write new rows on new lines",
+                       name_, line);
   }
 
   Failure changed(std::uint64_t lines) const {
-    return {ExitCode::LocalFile, fmt::format("{}: the lines up to {} have changed after they were "
-                                             "sent: restore them, or send all rows with --again",
-                                             name_, lines)};
+    return Failure::of(ExitCode::LocalFile,
+                       "{}: the lines up to {} have changed after they were "
+                       "sent: restore them, or send all rows with --again",
+                       name_, lines);
   }
 
   Outcome<void> send(const CsvChunks& chunks, const CsvChunk& chunk) {
@@ -244,8 +246,8 @@ class Upload {
 
   void notice(const Failure& failure, std::chrono::milliseconds wait) {
     line_.clear();
-    context_.note(fmt::format("{}; again in {:.1f} s", failure.message,
-                              std::chrono::duration<double>(wait).count()));
+    context_.note("{}; again in {:.1f} s", failure.message,
+                  std::chrono::duration<double>(wait).count());
   }
 
   void show_progress() {

@@ -45,8 +45,8 @@ void forget_oldest_states(const std::filesystem::path& folder) {
 }
 
 Failure state_failure(const std::string& path, const char* what) {
-  return {ExitCode::LocalFile, fmt::format("{}: cannot {}: {}; give another file with --state",
-                                           path, what, std::strerror(errno))};
+  return Failure::of(ExitCode::LocalFile, "{}: cannot {}: {}; give another file with --state", path,
+                     what, std::strerror(errno));
 }
 
 }  // namespace
@@ -91,8 +91,8 @@ std::string chunk_key(const MeasureState& state, const CsvPosition& end) {
 Outcome<MeasureJournal> MeasureJournal::open(const std::string& path) {
   std::error_code ignored;  // what matters is whether the file can be opened
   std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
-  MeasureJournal journal(
-      path, ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, kPrivate));
+  MeasureJournal journal(path,
+                         ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, kPrivate));
   if (!journal.file_.is_open()) return state_failure(path, "open the state");
   if (flock(journal.file_.get(), LOCK_EX | LOCK_NB) != 0) {
     return Failure{ExitCode::LocalFile,

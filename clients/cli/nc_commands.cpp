@@ -23,8 +23,7 @@ Outcome<std::string> parameter_json(std::string_view name, std::string_view valu
   if (ascii_iequals(name.substr(0, 2), "QS")) return json_string(value);
   const auto number = parse_document(value);
   if (number && number->kind == JsonValue::Kind::Number) return std::string(value);
-  return Failure{ExitCode::Usage,
-                 fmt::format("{} must be a number such as 25.5; got '{}'", name, value)};
+  return Failure::of(ExitCode::Usage, "{} must be a number such as 25.5; got '{}'", name, value);
 }
 
 Outcome<std::string> setup_json(const RunOptions& options) {
@@ -77,10 +76,9 @@ Outcome<ExitCode> run_one(const Context& context, const RunOptions& options) {
   }
   const std::string_view status = run->text_of("status");
   if (status != "completed") {
-    return Failure{ExitCode::ProgramFailed,
-                   fmt::format("run {} ended with status {}{}",
-                               options.from_control ? run->text_of("id") : options.program, status,
-                               missing_part(*run, options))};
+    return Failure::of(ExitCode::ProgramFailed, "run {} ended with status {}{}",
+                       options.from_control ? run->text_of("id") : options.program, status,
+                       missing_part(*run, options));
   }
   const std::string_view verdict = run->text_of("verdict");
   return verdict.empty() ? ExitCode::Good : verdict_exit_code(verdict);
@@ -118,8 +116,7 @@ Outcome<ExitCode> run_nc_put(const Context& context, const Words& paths) {
   const std::string& destination = paths.back();
   const std::vector<std::string> files(paths.begin(), paths.end() - 1);
   if (files.size() > 1 && !names_folder(destination)) {
-    return Failure{ExitCode::Usage,
-                   fmt::format("several files need a folder: write {}/", destination)};
+    return Failure::of(ExitCode::Usage, "several files need a folder: write {}/", destination);
   }
   for (const std::string& file : files) {
     const auto bytes = TRY(read_file(file));
@@ -164,8 +161,8 @@ Outcome<std::string> run_order(const RunOptions& options) {
   for (const std::string& parameter : options.parameters) {
     const std::size_t equals = parameter.find('=');
     if (equals == std::string::npos) {
-      return Failure{ExitCode::Usage,
-                     fmt::format("--set must be a parameter such as Q1=25; got '{}'", parameter)};
+      return Failure::of(ExitCode::Usage, "--set must be a parameter such as Q1=25; got '{}'",
+                         parameter);
     }
     const std::string name = parameter.substr(0, equals);
     const auto value = TRY(parameter_json(name, std::string_view(parameter).substr(equals + 1)));

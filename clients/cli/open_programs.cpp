@@ -279,8 +279,7 @@ std::vector<ControlPath> OpenPrograms::connected(const OpenProgram& program, con
 Result<Changes> OpenPrograms::rename(const OpenProgram& program, const WrittenParameter& from,
                                      std::string_view to) {
   const auto refuse = [](QRef parameter, std::string_view reason) {
-    return Error{ErrorCode::FieldInvalid,
-                 fmt::format("{} {}", interpreter::name(parameter), reason)};
+    return Error::of(ErrorCode::FieldInvalid, "{} {}", interpreter::name(parameter), reason);
   };
   const QRef old = from.parameter;
   const auto name = TRY(interpreter::parse_parameter_name(to));

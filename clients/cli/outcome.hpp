@@ -24,6 +24,13 @@ struct Failure {
   Failure(ExitCode code, std::string text, std::string problem = {})
       : exit_code(code), message(std::move(text)), document(std::move(problem)) {}
 
+  /// A failure whose message is formatted.
+  template <class... Arguments>
+  static Failure of(ExitCode code, fmt::format_string<Arguments...> text,
+                    Arguments&&... arguments) {
+    return {code, fmt::format(text, std::forward<Arguments>(arguments)...)};
+  }
+
   ExitCode exit_code = ExitCode::Defect;
   std::string message;   ///< the fault and its remedy
   std::string document;  ///< the service's problem document, if it sent one

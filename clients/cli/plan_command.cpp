@@ -13,7 +13,7 @@ struct PlanOptions {
 };
 
 Failure local(const std::string& file, std::string_view why) {
-  return {ExitCode::LocalFile, fmt::format("{}: {}", file, why)};
+  return Failure::of(ExitCode::LocalFile, "{}: {}", file, why);
 }
 
 std::string size_text(const step::DrawnSize& size) {
@@ -31,11 +31,10 @@ void print(const Context& context, const step::Drawing& drawing) {
   if (context.json) return context.print_document(api::body_json(drawing));
   for (const step::DrawnSize& size : drawing.sizes) {
     context.print("{}\n", size_text(size));
-    for (const std::string& remark : size.remarks)
-      context.note(fmt::format("{}: {}", size.name, remark));
+    for (const std::string& remark : size.remarks) context.note("{}: {}", size.name, remark);
   }
   for (const step::NotRead& other : drawing.not_read)
-    context.note(fmt::format("not read: {} {}: {}", other.entity, other.name, other.why));
+    context.note("not read: {} {}: {}", other.entity, other.name, other.why);
 }
 
 /// Stores the plan, and prints the differences from the stored one.
@@ -57,7 +56,7 @@ Outcome<ExitCode> store(const Context& context, const step::Drawing& drawing,
   for (const std::string& name : plan->compared.added) context.note("added: " + name);
   for (const std::string& name : plan->compared.gone) context.note("gone: " + name);
   for (const auto& one : plan->compared.changed)
-    context.note(fmt::format("changed: {}: {}, in the plan {}", one.name, one.after, one.before));
+    context.note("changed: {}: {}, in the plan {}", one.name, one.after, one.before);
   return ExitCode::Good;
 }
 

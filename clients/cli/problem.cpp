@@ -87,8 +87,8 @@ Outcome<Answer> expect_ok(Outcome<Answer> answer, const std::string& url) {
 Outcome<JsonValue> read_document(const Answer& answer, const std::string& url) {
   auto document = parse_document(answer.body);
   if (document) return *std::move(document);
-  return Failure{ExitCode::NoAnswer,
-                 fmt::format("{} does not return JSON: check that fitgauged runs there", url)};
+  return Failure::of(ExitCode::NoAnswer, "{} does not return JSON: check that fitgauged runs there",
+                     url);
 }
 
 }  // namespace fitgauge::cli

@@ -381,8 +381,8 @@ std::vector<Completion> completions(const EditedText& text, Place cursor) {
 Result<std::string> formatted_text(const OpenProgram& program) {
   auto parsed = iso::parse_program(program.text.text(), program.name.text());
   const auto refused = [](const klartext::Diagnostic& found) {
-    return Error{ErrorCode::FieldInvalid,
-                 fmt::format("correct line {} first: {}", found.range.begin.line, found.message)};
+    return Error::of(ErrorCode::FieldInvalid, "correct line {} first: {}", found.range.begin.line,
+                     found.message);
   };
   if (const klartext::Diagnostic* found = parsed.not_printed()) return refused(*found);
   auto formatted = program.text.is_iso()

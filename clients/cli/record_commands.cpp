@@ -41,7 +41,7 @@ Outcome<ExitCode> run_list(const Context& context, const RecordQuery& query) {
   for (const JsonValue& record : page.member("measurements").items)
     context.print("{}", record_line(record, context.out));
   if (const std::string_view next = page.text_of("next"); !next.empty())
-    context.note(fmt::format("more: --after {}", next));
+    context.note("more: --after {}", next);
   return ExitCode::Good;
 }
 

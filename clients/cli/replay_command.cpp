@@ -29,7 +29,7 @@ Outcome<ByCycle> read_log(const std::string& file) {
   log_reader::Reading reading = log_reader::read_logs(bytes);
   if (!reading.unread.empty()) {
     const auto& [line, why] = reading.unread.front();
-    return Failure{ExitCode::LocalFile, fmt::format("{}:{}: {}", file, line, why)};
+    return Failure::of(ExitCode::LocalFile, "{}:{}: {}", file, line, why);
   }
   if (reading.logs.empty()) {
     return Failure{ExitCode::LocalFile, file + ": contains no complete measuring log"};
@@ -172,8 +172,8 @@ Outcome<ExitCode> run_replay(const Context& context, const ReplayOptions& option
   // An exceeded tolerance stops a program, as it did on the machine.
   const std::string_view status = run.text_of("status");
   if (status != "completed" && status != "stopped") {
-    return Failure{ExitCode::ProgramFailed,
-                   fmt::format("run {} ended with status {}", run.text_of("id"), status)};
+    return Failure::of(ExitCode::ProgramFailed, "run {} ended with status {}", run.text_of("id"),
+                       status);
   }
   return comparison.differing() == 0 ? ExitCode::Good : ExitCode::ProgramFailed;
 }

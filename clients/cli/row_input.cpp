@@ -30,7 +30,7 @@ aqdef::LimitsOfClass limits_by(const Context& context) {
 bool is_dfq(const std::string& path) { return ascii_lower(path).ends_with(".dfq"); }
 
 Failure cannot_read(const std::string& path, const Error& error) {
-  return {ExitCode::LocalFile, fmt::format("{}: {}", path, error.message)};
+  return Failure::of(ExitCode::LocalFile, "{}: {}", path, error.message);
 }
 
 Read reading(const std::shared_ptr<InputFile>& file) {
@@ -65,7 +65,7 @@ Outcome<sheet::Words> read_words(std::string_view option, const std::vector<std:
   for (const std::string& text : texts) {
     const std::size_t equals = text.rfind('=');
     if (equals == 0 || equals == std::string::npos) {
-      return Failure{ExitCode::Usage, fmt::format("{} must be NAME=TEXT; got '{}'", option, text)};
+      return Failure::of(ExitCode::Usage, "{} must be NAME=TEXT; got '{}'", option, text);
     }
     words.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }

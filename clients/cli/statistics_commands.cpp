@@ -50,10 +50,10 @@ Outcome<std::string> arrays_of(std::string_view text, bool& flat) {
     const std::string_view line = trim(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
     if (is_ambiguous(line)) {
-      return Failure{ExitCode::Usage,
-                     fmt::format("line {}: '{}' may be one number or several: write a decimal "
-                                 "point, and blanks between values",
-                                 number, line)};
+      return Failure::of(ExitCode::Usage,
+                         "line {}: '{}' may be one number or several: write a decimal "
+                         "point, and blanks between values",
+                         number, line);
     }
     const auto values = values_of(line);
     if (values.empty()) continue;
@@ -72,9 +72,9 @@ Outcome<std::string> body_of(const StatisticsOptions& options) {
   auto text = TRY(read_file(options.file));
   if (trim(text).starts_with('{')) return text;
   if (options.figure == "grr" || options.figure == "pairing" || options.figure == "uncertainty") {
-    return Failure{ExitCode::Usage,
-                   fmt::format("{} needs a JSON file: see its members in docs/reference/api.md",
-                               options.figure)};
+    return Failure::of(ExitCode::Usage,
+                       "{} needs a JSON file: see its members in docs/reference/api.md",
+                       options.figure);
   }
   bool flat = true;
   const auto arrays = TRY(arrays_of(text, flat));

@@ -34,7 +34,7 @@ Outcome<ExitCode> list(const Context& context, const std::string& target, std::s
   return show(context, context.persist({.target = target}), [&](const JsonValue& document) {
     for (const JsonValue& item : document.member(items).items) context.print("{}\n", line(item));
     if (const std::string_view next = document.text_of("next"); !next.empty()) {
-      context.note(fmt::format("more: --after {}", next));
+      context.note("more: --after {}", next);
     }
   });
 }

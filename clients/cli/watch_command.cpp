@@ -89,11 +89,10 @@ class Watch {
 Outcome<ExitCode> run_watch(const Context& context, const WatchOptions& options) {
   static const std::regex kId(R"(m\d{1,19}r?\.e\d{1,19}(-[0-9a-f]+)?)");
   if (!options.after.empty() && !std::regex_match(options.after, kId)) {
-    return Failure{
-        ExitCode::Usage,
-        fmt::format("--after must be the id of an event, such as m17.e3-5f0c9a3e77d21b40; "
-                    "got '{}'",
-                    options.after)};
+    return Failure::of(ExitCode::Usage,
+                       "--after must be the id of an event, such as m17.e3-5f0c9a3e77d21b40; "
+                       "got '{}'",
+                       options.after);
   }
   return Watch(context, options).run();
 }

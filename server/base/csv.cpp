@@ -70,7 +70,7 @@ char separator_of(std::string_view header_line) {
 Result<CsvReader> CsvReader::open(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (const std::size_t at = find_invalid_utf8(text); at != std::string_view::npos) {
-    return Error{ErrorCode::TextEncoding, fmt::format("byte {} is not UTF-8", at)};
+    return Error::of(ErrorCode::TextEncoding, "byte {} is not UTF-8", at);
   }
   CsvReader reader(text, separator_of(text.substr(0, text.find_first_of("\r\n"))));
   TRY(reader.read_record());

@@ -10,8 +10,8 @@ namespace fitgauge {
 namespace {
 
 Error failure(std::string_view doing, const std::filesystem::path& path) {
-  return {ErrorCode::StorageUnavailable,
-          fmt::format("cannot {} {}: {}", doing, path.string(), std::strerror(errno))};
+  return Error::of(ErrorCode::StorageUnavailable, "cannot {} {}: {}", doing, path.string(),
+                   std::strerror(errno));
 }
 
 bool write_all(int descriptor, std::string_view text) {
@@ -116,9 +116,8 @@ Result<void> Folder::move(const std::string& name, const Folder& to, const std::
     if (errno == EINVAL && renameat(from_folder, name.c_str(), to_folder, free.c_str()) == 0) {
       return {};
     }
-    return Error{ErrorCode::StorageUnavailable,
-                 fmt::format("{} cannot be moved to {}: {}", name, (to.path_ / free).string(),
-                             std::strerror(errno))};
+    return Error::of(ErrorCode::StorageUnavailable, "{} cannot be moved to {}: {}", name,
+                     (to.path_ / free).string(), std::strerror(errno));
   }
 }
 

@@ -25,6 +25,11 @@ struct Error {
   std::string where{};  ///< the place (JSON pointer, file:line:column, table and cell), or empty
   std::vector<Error> details{};  ///< each bad field, when one answer reports several
 
+  /// An error whose message is formatted.
+  template <class... Arguments>
+  static Error of(ErrorCode code, fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+    return {code, fmt::format(text, std::forward<Arguments>(arguments)...)};
+  }
   friend bool operator==(const Error&, const Error&) = default;
 };
 

@@ -67,8 +67,7 @@ Result<int> run_verify(const Config& config, const std::vector<std::string>& che
   for (const std::string& file : checkpoints) {
     auto note = read_regular(file);
     if (!note) {
-      return config_error(
-          fmt::format("cannot read the checkpoint {}: {}", file, note.error().message));
+      return config_error("cannot read the checkpoint {}: {}", file, note.error().message);
     }
     notes[file] = *std::move(note);
   }
@@ -111,8 +110,8 @@ Result<int> run_qualify(const Config& config, const std::string& folder, bool si
   std::cout << fmt::format("{} checks, {} failed; see {}\n", made.checks.size(), failed, folder);
   return made.passed ? 0 : 1;
 } catch (const std::exception& failure) {
-  return Error{ErrorCode::StorageUnavailable,
-               fmt::format("the qualification could not run: {}", failure.what())};
+  return Error::of(ErrorCode::StorageUnavailable, "the qualification could not run: {}",
+                   failure.what());
 }
 
 Result<int> run_log_key(const Config& config) {
@@ -125,15 +124,14 @@ Result<int> run_key_create(const Config& config, const std::string& name, const 
                            const std::optional<std::string>& expires) {
   const auto known = app::role_from_word(role);
   if (!known) {
-    return config_error(
-        fmt::format("role must be one of: viewer, operator, admin, station; got '{}'", role));
+    return config_error("role must be one of: viewer, operator, admin, station; got '{}'", role);
   }
   std::optional<Timestamp> end;
   if (expires) {
     const auto time = parse_rfc3339(*expires);
     if (!time) {
-      return config_error(
-          fmt::format("expires must be a time such as 2027-01-01T00:00:00Z; got '{}'", *expires));
+      return config_error("expires must be a time such as 2027-01-01T00:00:00Z; got '{}'",
+                          *expires);
     }
     end = *time;
   }

@@ -51,21 +51,21 @@ std::vector<std::string_view> model_names() {
 Result<std::string> text_of(const Setting& setting, const toml::node& node) {
   if (setting.integer != nullptr) {
     if (const auto value = node.value_exact<std::int64_t>()) return std::to_string(*value);
-    return config_error(fmt::format("{} must be a whole number", toml_key(setting)));
+    return config_error("{} must be a whole number", toml_key(setting));
   }
   if (setting.flag != nullptr) {
     if (const auto value = node.value_exact<bool>()) return *value ? "true" : "false";
-    return config_error(fmt::format("{} must be true or false", toml_key(setting)));
+    return config_error("{} must be true or false", toml_key(setting));
   }
   if (const auto value = node.value_exact<std::string>()) return *value;
   const toml::array* items = node.as_array();
   if (setting.texts == nullptr || items == nullptr) {
-    return config_error(fmt::format("{} must be a string", toml_key(setting)));
+    return config_error("{} must be a string", toml_key(setting));
   }
   std::vector<std::string> texts;
   for (const toml::node& item : *items) {
     const auto text = item.value_exact<std::string>();
-    if (!text) return config_error(fmt::format("{} must be a list of strings", toml_key(setting)));
+    if (!text) return config_error("{} must be a list of strings", toml_key(setting));
     texts.push_back(*text);
   }
   return fmt::format("{}", fmt::join(texts, ","));
@@ -235,20 +235,20 @@ Result<void> assign(const Setting& setting, std::string_view text, Config& confi
   if (setting.integer != nullptr) {
     const auto value = read_number<std::int64_t>(text);
     if (!value || *value < setting.least || *value > setting.most) {
-      return config_error(fmt::format("{} must be a whole number from {} to {}; got '{}'",
-                                      setting.name, setting.least, setting.most, text));
+      return config_error("{} must be a whole number from {} to {}; got '{}'", setting.name,
+                          setting.least, setting.most, text);
     }
     config.*setting.integer = *value;
   } else if (setting.flag != nullptr) {
     if (text != "true" && text != "false") {
-      return config_error(fmt::format("{} must be true or false; got '{}'", setting.name, text));
+      return config_error("{} must be true or false; got '{}'", setting.name, text);
     }
     config.*setting.flag = text == "true";
   } else if (setting.texts != nullptr) {
     config.*setting.texts = split_list(text);
   } else if (!words.empty() && std::ranges::find(words, text) == words.end()) {
-    return config_error(
-        fmt::format("{} must be one of: {}; got '{}'", setting.name, fmt::join(words, ", "), text));
+    return config_error("{} must be one of: {}; got '{}'", setting.name, fmt::join(words, ", "),
+                        text);
   } else {
     config.*setting.text = text;
   }
@@ -257,18 +257,16 @@ Result<void> assign(const Setting& setting, std::string_view text, Config& confi
 
 Result<void> read_toml(const std::string& path, Config& config) {
   const auto content = read_regular(path);
-  if (!content)
-    return config_error(fmt::format("cannot read {}: {}", path, content.error().message));
+  if (!content) return config_error("cannot read {}: {}", path, content.error().message);
   toml::table file;
   try {
     file = toml::parse(*content, path);
   } catch (const toml::parse_error& error) {
-    return config_error(
-        fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
+    return config_error("{}:{}: {}", path, error.source().begin.line, error.description());
   }
   for (const auto& [key, node] : file) {
     const auto place = [&, &key = key](const std::string& message) {
-      return config_error(fmt::format("{}:{}: {}", path, key.source().begin.line, message));
+      return config_error("{}:{}: {}", path, key.source().begin.line, message);
     };
     const Setting* setting = find(key.str(), toml_key);
     if (setting == nullptr) {
@@ -291,11 +289,11 @@ Result<void> read_environment(const std::vector<std::string>& environment, Confi
     if (std::ranges::find(kOtherVariables, name) != std::end(kOtherVariables)) continue;
     const Setting* setting = find(name, environment_name);
     if (setting == nullptr) {
-      return config_error(fmt::format("unknown environment variable {}; known variables: {}", name,
-                                      known(environment_name)));
+      return config_error("unknown environment variable {}; known variables: {}", name,
+                          known(environment_name));
     }
     const auto assigned = assign(*setting, std::string_view(variable).substr(equals + 1), config);
-    if (!assigned) return config_error(fmt::format("{}: {}", name, assigned.error().message));
+    if (!assigned) return config_error("{}: {}", name, assigned.error().message);
   }
   return {};
 }
@@ -306,16 +304,16 @@ Result<void> check(const Config& config) {
   if (config.data.empty()) return config_error("data must be the folder of the database");
   if (!app::is_origin_name(config.origin_name)) {
     return config_error(
-        fmt::format("origin-name must have 1 to 64 lower-case letters, digits, '.', '/' and '-', "
-                    "and begin with a letter or digit; got '{}'",
-                    config.origin_name));
+        "origin-name must have 1 to 64 lower-case letters, digits, '.', '/' and '-', "
+        "and begin with a letter or digit; got '{}'",
+        config.origin_name);
   }
   for (const std::string& origin : config.allow_origin) {
     if (!is_origin(origin)) {
       return config_error(
-          fmt::format("allow-origin must be an origin as https://mes.example:8443, in "
-                      "lower case and without a path; got '{}'",
-                      origin));
+          "allow-origin must be an origin as https://mes.example:8443, in "
+          "lower case and without a path; got '{}'",
+          origin);
     }
   }
   if (config.tls_cert.empty() != config.tls_key.empty()) {

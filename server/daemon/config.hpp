@@ -46,6 +46,11 @@ struct Config {
 inline Error config_error(std::string message) {
   return {ErrorCode::ConfigInvalid, std::move(message)};
 }
+template <class... Arguments>
+Error config_error(fmt::format_string<Arguments...> format,
+                   Arguments&&... arguments) requires(sizeof...(Arguments) > 0) {
+  return config_error(fmt::format(format, std::forward<Arguments>(arguments)...));
+}
 
 /// One setting: its place in Config, its names and its documentation.
 struct Setting {

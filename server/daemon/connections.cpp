@@ -75,7 +75,7 @@ class ConnectionReader {
  private:
   Error error(const toml::node* node, std::string_view message) const {
     const auto line = node == nullptr ? table_.source().begin.line : node->source().begin.line;
-    return {ErrorCode::ConfigInvalid, fmt::format("{}:{}: {}", file_, line, message)};
+    return Error::of(ErrorCode::ConfigInvalid, "{}:{}: {}", file_, line, message);
   }
 
   /// Every field that cannot be accepted, each with its line.
@@ -156,11 +156,11 @@ Result<std::vector<Definition>> read_connections(const std::string& path) {
   std::vector<Definition> definitions;
   if (path.empty()) return definitions;
   const auto invalid = [&path](auto line, std::string_view what) {
-    return config_error(fmt::format("{}:{}: {}", path, line, what));
+    return config_error("{}:{}: {}", path, line, what);
   };
   const auto text = read_regular(path);
   if (!text) {
-    return config_error(fmt::format("cannot read {}: {}", path, text.error().message));
+    return config_error("cannot read {}: {}", path, text.error().message);
   }
   toml::table file;
   try {
@@ -224,19 +224,19 @@ Result<void> check_forwarding(const Config& config) {
   const std::string_view authority = authority_of(url);
   const bool is_plain = url.starts_with("http://");
   if (authority.empty() || !(is_plain || url.starts_with("https://"))) {
-    return config_error(fmt::format(
-        "forward-to must be https://host or https://host:port of a centre; got '{}'", url));
+    return config_error(
+        "forward-to must be https://host or https://host:port of a centre; got '{}'", url);
   }
   if (is_plain && !config.forward_insecure && !is_this_machine(authority)) {
     return config_error(
-        fmt::format("forward-to {} would send the key and the measurements without encryption: use "
-                    "https://, or set forward-insecure",
-                    url));
+        "forward-to {} would send the key and the measurements without encryption: use "
+        "https://, or set forward-insecure",
+        url);
   }
   for (const std::string& file : {config.forward_key_file, config.forward_ca}) {
     if (file.empty()) continue;
     if (const auto opened = open_regular(file); !opened) {
-      return config_error(fmt::format("cannot read {}: {}", file, opened.error().message));
+      return config_error("cannot read {}: {}", file, opened.error().message);
     }
   }
   return {};

@@ -45,11 +45,10 @@ fs::path nearest_existing(fs::path folder) {
 Result<void> check_folder(const std::string& what, const fs::path& folder) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) {
-    return config_error(fmt::format("{}: {} is not a folder", what, folder.string()));
+    return config_error("{}: {} is not a folder", what, folder.string());
   }
   if (access(folder.c_str(), W_OK | X_OK) != 0) {
-    return config_error(
-        fmt::format("{}: cannot write to {}: {}", what, folder.string(), std::strerror(errno)));
+    return config_error("{}: cannot write to {}: {}", what, folder.string(), std::strerror(errno));
   }
   return {};
 }
@@ -59,7 +58,7 @@ Result<void> check_file(const std::string& what, const fs::path& file) {
   std::error_code ignored;
   if (file.empty()) return {};
   if (fs::is_directory(file, ignored)) {
-    return config_error(fmt::format("{}: {} is a folder", what, file.string()));
+    return config_error("{}: {} is a folder", what, file.string());
   }
   return check_folder(what, file.has_parent_path() ? file.parent_path() : fs::path("."));
 }
@@ -83,7 +82,7 @@ Result<void> take_key_of_file(const std::string& file, const std::vector<store::
     return {};
   }
   if (!taken) {
-    return config_error(fmt::format("admin-key-file {}: {}", file, taken.error().message));
+    return config_error("admin-key-file {}: {}", file, taken.error().message);
   }
   if (replaces) {
     log_warning("admin_key_replaced",
@@ -199,7 +198,7 @@ Result<std::string> read_admin_key(const std::string& file) {
   std::string token(text ? trim(text->substr(0, text->find('\n'))) : "");
   if (token.size() >= app::kShortestToken) return token;
   const auto invalid = [&](const std::string& what) {
-    return config_error(fmt::format("admin-key-file {} {}", file, what));
+    return config_error("admin-key-file {} {}", file, what);
   };
   if (!text) return invalid("cannot be read: " + text.error().message);
   if (token.empty()) return invalid("has no key in its first line");
@@ -217,8 +216,7 @@ Result<void> provide_admin_key(const Config& config, bool needs_one, app::KeySer
   const std::string token = app::KeyService::new_token();
   const std::string file = admin_key_out(config);
   if (const auto written = replace_file(file, token + '\n', 0600); !written) {
-    return config_error(
-        fmt::format("admin-key-out: cannot write {}: {}", file, written.error().message));
+    return config_error("admin-key-out: cannot write {}: {}", file, written.error().message);
   }
   if (const auto created = keys.create(kName, app::Role::Admin, token); !created) {
     ::unlink(file.c_str());

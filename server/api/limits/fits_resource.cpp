@@ -80,10 +80,10 @@ Result<MeasuredSide> read_side(const Services& services, const app::MeasurementQ
     const auto mm = [](const std::optional<Length>& limit) {
       return limit ? format_mm(*limit) : std::string("none");
     };
-    return Error{ErrorCode::LimitsMixed,
-                 fmt::format("they have the limits {} and {} mm, the fit has {} and {} mm",
-                             mm(selected.lower_limit), mm(selected.upper_limit),
-                             format_mm(limits.lower_limit()), format_mm(limits.upper_limit()))};
+    return Error::of(ErrorCode::LimitsMixed,
+                     "they have the limits {} and {} mm, the fit has {} and {} mm",
+                     mm(selected.lower_limit), mm(selected.upper_limit),
+                     format_mm(limits.lower_limit()), format_mm(limits.upper_limit()));
   }
   constexpr long double kConfidence = 0.95L;
   auto capability = TRY(metrology::assess_capability(selected.data, selected.limits, kConfidence));
@@ -202,15 +202,15 @@ Result<iso286::FitDesignation> read_fit(std::string_view hole, std::string_view 
       is_bore ? std::string(hole.substr(0, at)) + "H7" : std::string(hole), is_ring ? "h6" : shaft);
   if ((is_bore && is_ring) ||
       (!fit && (is_bore || is_ring) && fit.error().code == ErrorCode::FitMalformed)) {
-    return Error{ErrorCode::FitMalformed,
-                 fmt::format("unknown fit of a bearing '{}/{}': write 25 ISO 492-P6/k6 (shaft) or "
-                             "52 H7/ISO 492-P6 (housing)",
-                             first_characters(hole, 40), first_characters(shaft, 40))};
+    return Error::of(ErrorCode::FitMalformed,
+                     "unknown fit of a bearing '{}/{}': write 25 ISO 492-P6/k6 (shaft) or "
+                     "52 H7/ISO 492-P6 (housing)",
+                     first_characters(hole, 40), first_characters(shaft, 40));
   }
   if (!fit && is_bore && fit.error().code == ErrorCode::DesignationMalformed) {
-    return Error{ErrorCode::DesignationMalformed,
-                 fmt::format("'{}' is not a bore of a bearing such as 25 ISO 492-P6",
-                             first_characters(hole, 40))};
+    return Error::of(ErrorCode::DesignationMalformed,
+                     "'{}' is not a bore of a bearing such as 25 ISO 492-P6",
+                     first_characters(hole, 40));
   }
   if (fit && is_bore) fit->hole_class = standards::bearing_class(hole.substr(at));
   if (fit && is_ring) fit->shaft_class = standards::bearing_class(shaft);

@@ -101,8 +101,8 @@ Result<Response> rows(const Request& request, const iso286::ToleranceTables& tab
     for (const Standard& other : standards::all()) {
       known += fmt::format("{}{}", known.empty() ? "" : ", ", other.name);
     }
-    return Error{ErrorCode::NotFound, fmt::format("unknown standard '{}'; known standards: {}",
-                                                  first_characters(name, 40), known)};
+    return Error::of(ErrorCode::NotFound, "unknown standard '{}'; known standards: {}",
+                     first_characters(name, 40), known);
   }
   const auto size = request.length("size_mm");
   const auto only = request.text("table");

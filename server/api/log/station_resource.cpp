@@ -20,14 +20,14 @@ void write_head(JsonWriter& json, const app::LogIntake::Head& head) {
 
 Error refusal(const app::LogIntake::Answer& answer, std::string_view origin) {
   if (answer.outcome == app::LogIntake::Outcome::Forked) {
-    return {ErrorCode::LogForked,
-            fmt::format("the origin {} has two histories: its folder was copied and started twice, "
-                        "or an older copy was restored. Start one of them with an empty folder",
-                        origin)};
+    return Error::of(ErrorCode::LogForked,
+                     "the origin {} has two histories: its folder was copied and started twice, "
+                     "or an older copy was restored. Start one of them with an empty folder",
+                     origin);
   }
-  return {ErrorCode::LogPosition,
-          fmt::format("{} rows of the origin {} are stored: continue after them", answer.head.size,
-                      origin)};
+  return Error::of(ErrorCode::LogPosition,
+                   "{} rows of the origin {} are stored: continue after them", answer.head.size,
+                   origin);
 }
 
 Response response_of(const Request& request, const app::LogIntake::Answer& answer,

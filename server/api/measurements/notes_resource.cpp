@@ -69,7 +69,7 @@ struct Entries {
     if (list == nullptr) return false;
     FieldErrors& errors = fields.errors();
     if (list->items.size() > kMostEntries) {
-      fields.report(ErrorCode::FieldTooLong, name, fmt::format("at most {} entries", kMostEntries));
+      fields.report(ErrorCode::FieldTooLong, name, "at most {} entries", kMostEntries);
       return false;
     }
     std::set<std::string_view> texts;

@@ -173,8 +173,8 @@ void read_part(const Services& services, std::string_view id, std::optional<std:
       [&services, part, plan, done = std::move(done)](const Result<app::ListPage>& page) {
         if (!page) return done(page.error());
         if (part->values.empty()) {
-          return done(Error{ErrorCode::MeasurementUnknown,
-                            fmt::format("no measurement has part_id '{}'", part->part)});
+          return done(Error::of(ErrorCode::MeasurementUnknown, "no measurement has part_id '{}'",
+                                part->part));
         }
         std::ranges::reverse(part->values);
         choose(part->values);

@@ -27,7 +27,7 @@ constexpr std::array<std::string_view, 14> kMeasurementFields = {
 void check_length(FieldReader& reader, std::string_view name,
                   const std::optional<std::string>& text, std::size_t longest) {
   if (text && text->size() > longest) {
-    reader.report(ErrorCode::FieldTooLong, name, fmt::format("at most {} bytes", longest));
+    reader.report(ErrorCode::FieldTooLong, name, "at most {} bytes", longest);
   }
 }
 
@@ -85,7 +85,7 @@ void read_characteristics(const JsonValue& list, const BatchContext& context, Fi
                           FieldErrors& errors) {
   if (list.items.empty() || list.items.size() > kMostCharacteristics) {
     plan.report(ErrorCode::FieldInvalid, "characteristics",
-                fmt::format("a plan must have 1 to {} characteristics", kMostCharacteristics));
+                "a plan must have 1 to {} characteristics", kMostCharacteristics);
     return;
   }
   std::set<std::string> names;

@@ -100,8 +100,7 @@ struct ParameterNames {
     const JsonValue* names = fields.array(of);
     if (names == nullptr) return false;
     if (names->items.size() > kMost) {
-      fields.report(ErrorCode::FieldInvalid, of,
-                    fmt::format("{} must have at most {} names", of, kMost));
+      fields.report(ErrorCode::FieldInvalid, of, "{} must have at most {} names", of, kMost);
     }
     for (std::size_t i = 0; i < std::min(names->items.size(), kMost); ++i) {
       const JsonValue& item = names->items[i];
@@ -126,8 +125,7 @@ struct Subject : Text {
     if (!Text::read(fields, name, to)) return false;
     const bool has_nul = to.find('\0') != std::string::npos;
     if (has_nul) {
-      fields.report(ErrorCode::FieldInvalid, name,
-                    fmt::format("{} must not contain a NUL character", name));
+      fields.report(ErrorCode::FieldInvalid, name, "{} must not contain a NUL character", name);
     }
     return !has_nul;
   }
@@ -156,8 +154,8 @@ struct Contacts {
     const JsonValue* const array = fields.array(name);
     if (array == nullptr) return false;
     if (array->items.size() > kMostContacts) {
-      fields.report(ErrorCode::FieldInvalid, name,
-                    fmt::format("{} must have at most {} contacts", name, kMostContacts));
+      fields.report(ErrorCode::FieldInvalid, name, "{} must have at most {} contacts", name,
+                    kMostContacts);
       return false;
     }
     for (std::size_t i = 0; i < array->items.size(); ++i) {

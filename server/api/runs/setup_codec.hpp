@@ -72,9 +72,8 @@ struct SomeOf : std::array<std::string_view, size> {
                              ? std::find(this->begin(), this->end(), item.text)
                              : this->end();
       if (found == this->end()) {
-        fields.report(ErrorCode::FieldInvalid, name,
-                      fmt::format("{} must be a list of \"{}\"", name,
-                                  fmt::join(this->begin(), this->end(), "\", \"")));
+        fields.report(ErrorCode::FieldInvalid, name, "{} must be a list of \"{}\"", name,
+                      fmt::join(this->begin(), this->end(), "\", \""));
         return false;
       }
       to[static_cast<std::size_t>(found - this->begin())] = true;

@@ -38,9 +38,8 @@ Result<std::string> name_to_write(const KindOfDocument& kind, const Request& req
            (!kind.names_with_slashes && (c == '/' || c == '\\'));
   });
   if (!name.empty() && name.size() <= kind.longest_name && printable) return name;
-  return Error{ErrorCode::PathMalformed,
-               fmt::format("the {} of {} must have {}", parameter_name(kind), kind.one,
-                           names_allowed(kind))};
+  return Error::of(ErrorCode::PathMalformed, "the {} of {} must have {}", parameter_name(kind),
+                   kind.one, names_allowed(kind));
 }
 
 Response written(bool created, std::string answer, std::string_view tag) {

@@ -112,9 +112,8 @@ Result<std::optional<Response>> Guard::operator()(Request& request,
                  "`fitgauged key create`"};
   }
   if (!app::may(caller->role, needed)) {
-    return Error{ErrorCode::Forbidden,
-                 fmt::format("the key {} has the role {}; this needs the role {}", caller->name,
-                             app::word(caller->role), app::word(needed))};
+    return Error::of(ErrorCode::Forbidden, "the key {} has the role {}; this needs the role {}",
+                     caller->name, app::word(caller->role), app::word(needed));
   }
   return std::optional<Response>();
 }

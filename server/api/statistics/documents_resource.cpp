@@ -30,7 +30,7 @@ struct Due {
       to = *std::move(due);
     } else {
       fields.report(ErrorCode::TimeMalformed, name,
-                    fmt::format("{} must be a date such as 2027-03-31, or an RFC 3339 time", name));
+                    "{} must be a date such as 2027-03-31, or an RFC 3339 time", name);
     }
     return due.has_value();
   }

@@ -30,9 +30,8 @@ struct StudyLabel {
     if (fits) {
       to = value->text;
     } else {
-      fields.report(
-          ErrorCode::FieldType, name,
-          fmt::format("{} must be a string or a number; got {}", name, name_of(value->kind)));
+      fields.report(ErrorCode::FieldType, name, "{} must be a string or a number; got {}", name,
+                    name_of(value->kind));
     }
     return fits;
   }

@@ -80,18 +80,17 @@ Result<void> ValueSelection::add(const app::MeasuredRun& run) {
   if (limits.lower == -kLongest) limits.lower.reset();
   if (limits.upper == kLongest) limits.upper.reset();
   if (!limits.lower && !limits.upper) {
-    return Error{ErrorCode::LimitsNone,
-                 fmt::format("{} has no limits: select judged values, by verdict or characteristic",
-                             app::measurement_id_text(run.values.front().id, run.origin))};
+    return Error::of(ErrorCode::LimitsNone,
+                     "{} has no limits: select judged values, by verdict or characteristic",
+                     app::measurement_id_text(run.values.front().id, run.origin));
   }
   if (!limits_) limits_ = limits;
   if (limits != *limits_) {
-    return Error{
-        ErrorCode::LimitsMixed,
-        fmt::format("{} has the limits {}, {} has {}: select values of one size by "
-                    "characteristic or designation",
-                    ids_.text(0), text_of(*limits_),
-                    app::measurement_id_text(run.values.front().id, run.origin), text_of(limits))};
+    return Error::of(ErrorCode::LimitsMixed,
+                     "{} has the limits {}, {} has {}: select values of one size by "
+                     "characteristic or designation",
+                     ids_.text(0), text_of(*limits_),
+                     app::measurement_id_text(run.values.front().id, run.origin), text_of(limits));
   }
   names_subgroups_ = names_subgroups_ || run.subgroup.has_value();
   if (!run.subgroup && !ungrouped_) {
@@ -99,10 +98,10 @@ Result<void> ValueSelection::add(const app::MeasuredRun& run) {
   }
   if (!ungrouped_) join(*run.subgroup, run.values.size());
   if (bytes_ + ids_.bytes() + counts_.size() * sizeof(Wide) > most_bytes_) {
-    return Error{ErrorCode::StatisticsTooMany,
-                 fmt::format("more than {} values match, the most for one figure: narrow the "
-                             "selection, for example by from and to",
-                             counts_.size())};
+    return Error::of(ErrorCode::StatisticsTooMany,
+                     "more than {} values match, the most for one figure: narrow the "
+                     "selection, for example by from and to",
+                     counts_.size());
   }
   if (counts_.empty())
     counts_.reserve(most_bytes_ / sizeof(Wide));  // only written pages need memory

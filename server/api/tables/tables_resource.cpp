@@ -39,8 +39,8 @@ Result<std::vector<ClassId>> chosen_classes(std::string_view names, Feature feat
     const auto id = tables.find_class(name);
     if (!id) return Error{ErrorCode::ClassUnknown, id.error().message};
     if (tables.feature(*id) != feature) {
-      return Error{ErrorCode::ClassUnknown,
-                   fmt::format("{} is not a class of the {} table", name, word(feature))};
+      return Error::of(ErrorCode::ClassUnknown, "{} is not a class of the {} table", name,
+                       word(feature));
     }
     if (std::ranges::find(chosen, *id) == chosen.end()) chosen.push_back(*id);
   }

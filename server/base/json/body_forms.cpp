@@ -9,8 +9,7 @@ bool Text::read(FieldReader& fields, std::string_view name, std::string& to) con
   if (fits) {
     to = *std::move(given);
   } else {
-    fields.report(ErrorCode::FieldTooLong, name,
-                  fmt::format("{} must have at most {} bytes", name, longest));
+    fields.report(ErrorCode::FieldTooLong, name, "{} must have at most {} bytes", name, longest);
   }
   return fits;
 }
@@ -28,7 +27,7 @@ bool Word::read(FieldReader& fields, std::string_view name, std::string& to) con
   auto given = fields.text(name);
   if (!given) return false;
   if (*given != word) {
-    fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} must be {}", name, word));
+    fields.report(ErrorCode::FieldInvalid, name, "{} must be {}", name, word);
   }
   to = *std::move(given);
   return to == word;
@@ -62,7 +61,7 @@ bool Number::read(FieldReader& fields, std::string_view name, double& to) const 
         ends == Ends::Closed ? "must be from {} to {}" : "must be between {} and {}";
     const std::string wanted =
         must.empty() ? fmt::format(fmt::runtime(between), least, most) : std::string(must);
-    fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} {}", name, wanted));
+    fields.report(ErrorCode::FieldInvalid, name, "{} {}", name, wanted);
   }
   return fits;
 }
@@ -73,8 +72,8 @@ std::optional<std::size_t> find_word(FieldReader& fields, std::string_view name,
   if (!given) return std::nullopt;
   const auto found = std::find(words.begin(), words.end(), *given);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  fields.report(ErrorCode::FieldInvalid, name,
-                fmt::format("{} must be \"{}\"", name, fmt::join(words, "\" or \"")));
+  fields.report(ErrorCode::FieldInvalid, name, "{} must be \"{}\"", name,
+                fmt::join(words, "\" or \""));
   return std::nullopt;
 }
 
@@ -84,8 +83,8 @@ std::optional<std::size_t> find_listed(FieldReader& fields, std::string_view nam
   if (!given) return std::nullopt;
   const auto found = std::find(words.begin(), words.end(), *given);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  fields.report(ErrorCode::FieldInvalid, name,
-                fmt::format("{} must be one of: {}", name, fmt::join(words, ", ")));
+  fields.report(ErrorCode::FieldInvalid, name, "{} must be one of: {}", name,
+                fmt::join(words, ", "));
   return std::nullopt;
 }
 

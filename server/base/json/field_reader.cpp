@@ -72,7 +72,7 @@ const JsonValue* FieldReader::take(std::string_view name, bool required) {
   known_.push_back(name);
   const JsonValue* value = object_.find(name);
   if (value == nullptr && required && object_.is(Kind::Object)) {
-    report(ErrorCode::FieldMissing, name, fmt::format("{} is required", name));
+    report(ErrorCode::FieldMissing, name, "{} is required", name);
   }
   return value;
 }
@@ -83,8 +83,7 @@ const JsonValue* FieldReader::take(std::string_view name, bool required,
   if (value == nullptr || std::find(kinds.begin(), kinds.end(), value->kind) != kinds.end()) {
     return value;
   }
-  report(ErrorCode::FieldType, name,
-         fmt::format("{} must be {}; got {}", name, wanted, name_of(value->kind)));
+  report(ErrorCode::FieldType, name, "{} must be {}; got {}", name, wanted, name_of(value->kind));
   return nullptr;
 }
 
@@ -109,7 +108,7 @@ std::optional<double> FieldReader::number(std::string_view name) {
   if (value == nullptr) return std::nullopt;
   const auto parsed = read_number<double>(value->text);
   if (parsed && std::isfinite(*parsed)) return parsed;
-  report(ErrorCode::NumberOutOfRange, name, fmt::format("{} is out of range", name));
+  report(ErrorCode::NumberOutOfRange, name, "{} is out of range", name);
   return std::nullopt;
 }
 
@@ -139,8 +138,8 @@ std::optional<std::int64_t> FieldReader::integer(std::string_view name, std::int
   if (value == nullptr) return std::nullopt;
   const auto parsed = read_number<std::int64_t>(value->text);
   if (parsed && *parsed >= least && *parsed <= most) return parsed;
-  report(ErrorCode::FieldInvalid, name,
-         fmt::format("{} must be a whole number from {} to {}", name, least, most));
+  report(ErrorCode::FieldInvalid, name, "{} must be a whole number from {} to {}", name, least,
+         most);
   return std::nullopt;
 }
 
@@ -170,7 +169,7 @@ void FieldReader::refuse_not_applicable(std::span<const Applicable> table, std::
 void FieldReader::refuse_unknown() {
   for (const auto& [name, value] : object_.members) {
     if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
-      report(ErrorCode::FieldUnknown, name, fmt::format("unknown field {}", name));
+      report(ErrorCode::FieldUnknown, name, "unknown field {}", name);
     }
   }
 }

@@ -89,6 +89,11 @@ class FieldReader {
   bool has(std::string_view name) const { return object_.find(name) != nullptr; }
   std::string at(std::string_view name) const { return pointer_to(pointer_, name); }
   void report(ErrorCode code, std::string_view name, std::string message);
+  template <class... Arguments>
+  void report(ErrorCode code, std::string_view name, fmt::format_string<Arguments...> format,
+              Arguments&&... arguments) requires(sizeof...(Arguments) > 0) {
+    report(code, name, fmt::format(format, std::forward<Arguments>(arguments)...));
+  }
   FieldErrors& errors() { return errors_; }
 
  private:

@@ -85,7 +85,7 @@ class Builder final : public nlohmann::json_sax<WideJson> {
 
   bool open(JsonValue::Kind kind) {
     if (open_.size() == kDeepest) {
-      error_ = Error{ErrorCode::JsonTooDeep, fmt::format("more than {} levels", kDeepest)};
+      error_ = Error::of(ErrorCode::JsonTooDeep, "more than {} levels", kDeepest);
       return false;
     }
     open_.push_back({.kind = kind});
@@ -95,15 +95,14 @@ class Builder final : public nlohmann::json_sax<WideJson> {
     JsonValue value = std::move(open_.back());
     open_.pop_back();
     if (const auto name = repeated_name(value)) {
-      error_ =
-          Error{ErrorCode::JsonDuplicateKey, fmt::format("the key \"{}\" occurs twice", *name)};
+      error_ = Error::of(ErrorCode::JsonDuplicateKey, "the key \"{}\" occurs twice", *name);
       return false;
     }
     return add(std::move(value));
   }
   bool add(JsonValue value) {
     if (++count_ > most_) {
-      error_ = Error{ErrorCode::BodyTooLarge, fmt::format("more than {} values", most_)};
+      error_ = Error::of(ErrorCode::BodyTooLarge, "more than {} values", most_);
       return false;
     }
     if (open_.empty()) {
@@ -185,9 +184,9 @@ Result<JsonValue> parse_stored_json(std::string_view text, std::string_view what
                                     const JsonItemHandler& handle_item) {
   auto value = parse_json(text, handle_item);
   if (value) return value;
-  return Error{ErrorCode::StorageCorrupt,
-               fmt::format("the stored {} cannot be read ({}): restore a backup, or delete it",
-                           what, value.error().message)};
+  return Error::of(ErrorCode::StorageCorrupt,
+                   "the stored {} cannot be read ({}): restore a backup, or delete it", what,
+                   value.error().message);
 }
 
 std::string pointer_to(std::string_view pointer, std::string_view token) {
@@ -239,9 +238,9 @@ Result<std::string> stored_member(std::string_view object, std::string_view name
   if (failure == simdjson::SUCCESS) failure = find(document, name, found);
   if (failure == simdjson::NO_SUCH_FIELD) return std::string();
   if (failure == simdjson::SUCCESS) return std::string(found);
-  return Error{ErrorCode::StorageCorrupt,
-               fmt::format("the stored {} cannot be read ({}): restore a backup, or delete it",
-                           what, simdjson::error_message(failure))};
+  return Error::of(ErrorCode::StorageCorrupt,
+                   "the stored {} cannot be read ({}): restore a backup, or delete it", what,
+                   simdjson::error_message(failure));
 }
 
 }  // namespace fitgauge::api

@@ -28,8 +28,8 @@ void name_authorities(SSL_CTX* context, const std::string& pem) {
 }
 
 Error cannot_listen(const ListenAddress& address, const error_code& error) {
-  return {ErrorCode::ListenFailed, fmt::format("cannot listen on {} port {}: {}", address.host,
-                                               address.port, error.message())};
+  return Error::of(ErrorCode::ListenFailed, "cannot listen on {} port {}: {}", address.host,
+                   address.port, error.message());
 }
 
 /// Opens and binds; the error has the failed step.
