@@ -1,7 +1,5 @@
 #include "cli/commands.hpp"
 
-#include "cli/registration.hpp"
-
 namespace fitgauge::cli {
 namespace {
 

@@ -1,7 +1,7 @@
 #include "base/clock.hpp"
 #include "cli/address.hpp"
+#include "cli/commands.hpp"
 #include "cli/local_files.hpp"
-#include "cli/registration.hpp"
 #include "plant/lsv2/link/link_client.hpp"
 #include "plant/lsv2/link/messages.hpp"
 

@@ -1,4 +1,4 @@
-#include "cli/gauge_command.hpp"
+#include "cli/answers.hpp"
 
 #include <fcntl.h>
 #include <termios.h>
@@ -10,7 +10,7 @@
 #include "base/folder.hpp"
 #include "base/length.hpp"
 #include "cli/address.hpp"
-#include "cli/registration.hpp"
+#include "cli/commands.hpp"
 #include "record/measurement_row_reader.hpp"
 
 namespace fitgauge::cli {

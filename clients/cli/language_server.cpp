@@ -5,7 +5,6 @@
 
 #include "cli/open_programs.hpp"
 #include "cli/program_help.hpp"
-#include "cli/program_remedies.hpp"
 
 namespace fitgauge::cli {
 namespace {

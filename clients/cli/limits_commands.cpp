@@ -1,8 +1,8 @@
-#include "cli/limits_commands.hpp"
+#include "cli/answers.hpp"
 
 #include "base/length.hpp"
 #include "cli/address.hpp"
-#include "cli/registration.hpp"
+#include "cli/commands.hpp"
 #include "cli/tolerance_zones.hpp"
 
 namespace fitgauge::cli {

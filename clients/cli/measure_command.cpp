@@ -2,8 +2,8 @@
 
 #include <future>
 
+#include "cli/commands.hpp"
 #include "cli/local_files.hpp"
-#include "cli/registration.hpp"
 #include "cli/row_input.hpp"
 #include "cli/terminal.hpp"
 #include "formats/sheet/record_reader.hpp"

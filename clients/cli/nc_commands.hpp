@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/registration.hpp"
+#include "cli/commands.hpp"
 #include "nc/klartext/diagnostic.hpp"
 
 namespace fitgauge::cli {

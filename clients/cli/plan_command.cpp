@@ -1,7 +1,7 @@
 #include "base/mapped_file.hpp"
 #include "cli/address.hpp"
-#include "cli/limits_commands.hpp"
-#include "cli/registration.hpp"
+#include "cli/answers.hpp"
+#include "cli/commands.hpp"
 #include "formats/step/drawing.hpp"
 
 namespace fitgauge::cli {

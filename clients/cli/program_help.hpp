@@ -4,6 +4,7 @@
 #include "nc/probing/cycle_descriptor.hpp"
 
 /// The knowledge of the language server about a place of a program, in either dialect.
+
 namespace fitgauge::cli {
 
 /// The cycle whose block a line belongs to.
@@ -40,5 +41,15 @@ std::vector<Completion> completions(const EditedText& text, Place cursor);
 
 /// Formats like `nc format`. @errors FieldInvalid for a program with errors.
 Result<std::string> formatted_text(const OpenProgram& program);
+
+/// One way to put a finding right.
+struct Remedy {
+  std::string title;
+  std::vector<Edit> edits;
+  bool is_preferred = true;
+};
+
+/// The remedies of a finding and those of its code; also a silencing comment for a warning or note.
+std::vector<Remedy> remedies(const EditedText& text, const klartext::Diagnostic& found);
 
 }  // namespace fitgauge::cli

@@ -1,6 +1,5 @@
-#include "cli/program_remedies.hpp"
-
 #include "cli/program_help.hpp"
+
 #include "nc/klartext/parser_rules.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/program/parameter.hpp"

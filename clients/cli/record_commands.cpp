@@ -2,7 +2,7 @@
 
 #include "base/length.hpp"
 #include "cli/address.hpp"
-#include "cli/gauge_command.hpp"
+#include "cli/answers.hpp"
 #include "cli/local_files.hpp"
 #include "cli/watch_command.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/registration.hpp"
+#include "cli/commands.hpp"
 #include "record/fields.hpp"
 
 namespace fitgauge::cli {

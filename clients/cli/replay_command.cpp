@@ -1,7 +1,7 @@
 #include "cli/nc_commands.hpp"
 
 #include "cli/address.hpp"
-#include "cli/gauge_command.hpp"
+#include "cli/answers.hpp"
 #include "cli/local_files.hpp"
 #include "formats/measuring_log/measuring_log.hpp"
 

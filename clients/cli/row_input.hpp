@@ -1,7 +1,6 @@
 #pragma once
 
 #include "cli/measure_command.hpp"
-#include "cli/outcome.hpp"
 #include "formats/sheet/shop_csv.hpp"
 
 namespace fitgauge::cli {

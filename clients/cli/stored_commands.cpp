@@ -1,7 +1,7 @@
 #include "cli/address.hpp"
+#include "cli/commands.hpp"
 #include "cli/local_files.hpp"
 #include "cli/nc_commands.hpp"
-#include "cli/registration.hpp"
 
 namespace fitgauge::cli {
 namespace {

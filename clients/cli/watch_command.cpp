@@ -3,8 +3,8 @@
 #include <regex>
 
 #include "cli/address.hpp"
-#include "cli/gauge_command.hpp"
-#include "cli/registration.hpp"
+#include "cli/answers.hpp"
+#include "cli/commands.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <toml++/toml.h>
 
 #include "base/folder.hpp"
-#include "daemon/connections.hpp"
+#include "daemon/parts.hpp"
 #include "plant/virtual_control/virtual_control.hpp"
 #include "service/log/log_keys.hpp"
 

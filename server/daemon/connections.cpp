@@ -1,4 +1,4 @@
-#include "daemon/connections.hpp"
+#include "daemon/parts.hpp"
 
 #include <toml++/toml.h>
 

@@ -6,9 +6,8 @@
 #include <csignal>
 #include <iostream>
 
-#include "daemon/connections.hpp"
 #include "daemon/log.hpp"
-#include "daemon/preflight.hpp"
+#include "daemon/parts.hpp"
 
 namespace fitgauge::daemon {
 namespace {

@@ -1,4 +1,4 @@
-#include "daemon/preflight.hpp"
+#include "daemon/parts.hpp"
 
 #include <fcntl.h>
 #include <malloc.h>
@@ -13,7 +13,6 @@
 #include "api/runs/run_posting.hpp"
 #include "api/wire/problem.hpp"
 #include "base/folder.hpp"
-#include "daemon/connections.hpp"
 #include "daemon/log.hpp"
 #include "db/store/database.hpp"
 

@@ -8,10 +8,8 @@
 #include "api/runs/run_codec.hpp"
 #include "api/service/guard.hpp"
 #include "api/wire/problem.hpp"
-#include "daemon/connections.hpp"
 #include "daemon/log.hpp"
-#include "daemon/preflight.hpp"
-#include "daemon/service_metrics.hpp"
+#include "daemon/parts.hpp"
 
 namespace fitgauge::daemon {
 namespace {

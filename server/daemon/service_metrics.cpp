@@ -1,4 +1,4 @@
-#include "daemon/service_metrics.hpp"
+#include "daemon/parts.hpp"
 
 #include <sys/resource.h>
 #include <sys/statvfs.h>

@@ -1,4 +1,4 @@
-#include "api/measurements/measurement_codec.hpp"
+#include "api/measurements/measurement_listing.hpp"
 
 #include "api/wire/formulas.hpp"
 #include "base/csv.hpp"

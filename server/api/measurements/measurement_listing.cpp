@@ -2,7 +2,6 @@
 #include "api/handlers.hpp"
 
 #include "api/limits/limits_codec.hpp"
-#include "api/measurements/measurement_codec.hpp"
 #include "api/wire/request_facts.hpp"
 #include "record/note.hpp"
 #include "record/record.hpp"

@@ -1,6 +1,6 @@
 #include "api/measurements/measurement_posting.hpp"
 
-#include "api/measurements/measurement_codec.hpp"
+#include "api/measurements/measurement_listing.hpp"
 #include "service/jobs.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 #include "service/tables/table_catalog.hpp"

@@ -1,5 +1,5 @@
-#include "api/measurements/measurement_codec.hpp"
 #include "api/measurements/measurement_file.hpp"
+#include "api/measurements/measurement_listing.hpp"
 #include "base/folder.hpp"
 #include "base/text.hpp"
 #include "formats/dfq/dfq_writer.hpp"

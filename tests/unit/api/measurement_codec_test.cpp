@@ -1,4 +1,4 @@
-#include "api/measurements/measurement_codec.hpp"
+#include "api/measurements/measurement_listing.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,8 +1,7 @@
 #include <doctest/doctest.h>
 
-#include "cli/gauge_command.hpp"
+#include "cli/answers.hpp"
 #include "cli/json_object.hpp"
-#include "cli/limits_commands.hpp"
 #include "cli/measure_command.hpp"
 #include "cli/problem.hpp"
 

@@ -1,11 +1,17 @@
 #pragma once
 
 #include <signal.h>
+#include <filesystem>
 
+#include "api/service/metrics.hpp"
 #include "api/services.hpp"
+#include "base/clock.hpp"
 #include "daemon/config.hpp"
 #include "http/server.hpp"
+#include "plant/centre/forwarder.hpp"
+#include "plant/connections.hpp"
 #include "plant/mtconnect/shdr_adapter.hpp"
+#include "plant/plant.hpp"
 #include "plant/virtual_control/virtual_control.hpp"
 #include "service/application.hpp"
 #include "service/documents/key_service.hpp"
@@ -78,5 +84,49 @@ Result<std::unique_ptr<virtual_control::VirtualControl>> start_control(
 /// before `services`. @errors as ShdrAdapter::start.
 Result<std::unique_ptr<mtconnect::ShdrAdapter>> start_shdr(const Config& config,
                                                            const api::Services& services);
+
+/// Reads the file of the connections; none for an empty path. Names of pattern files are relative
+/// to its folder. @errors ConfigInvalid with file, line and key.
+Result<std::vector<connections::Definition>> read_connections(const std::string& path);
+
+/// Starts the connections; they must be destroyed before `app`. @errors as read_connections; those
+/// of the storage.
+Result<std::unique_ptr<connections::Connections>> start_connections(const Config& config,
+                                                                    app::Application& app,
+                                                                    const Clock& clock,
+                                                                    const api::GaugesInUse& gauges);
+
+/// Whether the settings of forwarding go together.
+/// @errors ConfigInvalid: no centre's address, http:// beyond this machine, an unreadable key.
+Result<void> check_forwarding(const Config& config);
+
+/// Returns the centre's state of a history; none without a response within some seconds.
+std::optional<app::AtCentre> ask_centre(const Config& config, std::string_view digits);
+
+/// Starts to forward the log to the centre; null when there is none.
+std::unique_ptr<forwarder::Forwarder> start_forwarder(const Config& config, app::Application& app,
+                                                      forwarder::Tell tell);
+/// Writes to the log of the service.
+void tell_log(std::string_view event, const std::string& detail);
+
+/// Writes number and age of records that the centre lacks. @param forwarder may be null.
+void write_outbox_metrics(const forwarder::Forwarder* forwarder, const Clock& clock,
+                          api::Exposition& out);
+
+// Families of /metrics, read at each scrape. None waits for anything but the kernel.
+
+void write_server_metrics(const http::Server& server, api::Exposition& out);
+void write_application_metrics(app::Application& app, api::Exposition& out);
+/// Writes the lead of `clock` over `machine`, the system's clock, after that was set back.
+void write_clock_metrics(const Clock& clock, const Clock& machine, api::Exposition& out);
+/// The database's files and free space, or the state of its server.
+void write_storage_metrics(const app::Application& app, const std::filesystem::path& folder,
+                           api::Exposition& out);
+/// Writes `process_*` with the names of Prometheus' own clients, and the lost lines of the log.
+void write_process_metrics(api::Exposition& out);
+
+/// Writes the metrics of every connection, by its name.
+void write_connection_metrics(const std::vector<connections::ConnectionState>& connections,
+                              const Clock& clock, api::Exposition& out);
 
 }  // namespace fitgauge::daemon
