@@ -1,7 +1,6 @@
 #pragma once
 
 #include "cli/context.hpp"
-#include "cli/json_object.hpp"
 
 namespace fitgauge::cli {
 

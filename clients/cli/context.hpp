@@ -2,9 +2,6 @@
 
 #include <cstdio>
 
-#include "cli/http_client.hpp"
-#include "cli/json_object.hpp"
-#include "cli/outcome.hpp"
 #include "cli/problem.hpp"
 #include "cli/terminal.hpp"
 

@@ -3,7 +3,6 @@
 #include "cli/commands.hpp"
 #include "cli/local_files.hpp"
 #include "plant/lsv2/link/link_client.hpp"
-#include "plant/lsv2/link/messages.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -6,9 +6,7 @@
 #include <cerrno>
 #include <regex>
 
-#include "base/clock.hpp"
 #include "base/folder.hpp"
-#include "base/length.hpp"
 #include "cli/address.hpp"
 #include "cli/commands.hpp"
 #include "record/measurement_row_reader.hpp"

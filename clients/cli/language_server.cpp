@@ -3,7 +3,6 @@
 #include <iostream>
 #include <regex>
 
-#include "cli/open_programs.hpp"
 #include "cli/program_help.hpp"
 
 namespace fitgauge::cli {

@@ -1,6 +1,5 @@
 #include "cli/answers.hpp"
 
-#include "base/length.hpp"
 #include "cli/address.hpp"
 #include "cli/commands.hpp"
 #include "cli/tolerance_zones.hpp"

@@ -1,7 +1,6 @@
 #include <filesystem>
 
 #include "api/runs/run_codec.hpp"
-#include "base/json/json_value.hpp"
 #include "cli/address.hpp"
 #include "cli/folder_disk.hpp"
 #include "cli/local_files.hpp"

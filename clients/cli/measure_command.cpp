@@ -5,8 +5,6 @@
 #include "cli/commands.hpp"
 #include "cli/local_files.hpp"
 #include "cli/row_input.hpp"
-#include "cli/terminal.hpp"
-#include "formats/sheet/record_reader.hpp"
 
 namespace fitgauge::cli {
 namespace {

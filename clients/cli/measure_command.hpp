@@ -1,10 +1,7 @@
 #pragma once
 
 #include "cli/context.hpp"
-#include "cli/csv_chunks.hpp"
 #include "cli/measure_journal.hpp"
-#include "cli/outcome.hpp"
-#include "cli/problem.hpp"
 
 namespace fitgauge::cli {
 

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <filesystem>
 
-#include "base/digest.hpp"
 #include "cli/json_object.hpp"
 #include "cli/local_files.hpp"
 #include "cli/terminal.hpp"

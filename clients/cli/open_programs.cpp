@@ -1,6 +1,5 @@
 #include "cli/open_programs.hpp"
 
-#include "base/allowance.hpp"
 #include "cli/address.hpp"
 #include "cli/folder_disk.hpp"
 #include "cli/local_files.hpp"

@@ -4,7 +4,6 @@
 
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/syntax.hpp"
-#include "nc/program/control_disk.hpp"
 #include "nc/program/program_cache.hpp"
 
 namespace fitgauge::cli {

@@ -1,4 +1,3 @@
-#include "base/mapped_file.hpp"
 #include "cli/address.hpp"
 #include "cli/answers.hpp"
 #include "cli/commands.hpp"

@@ -6,8 +6,6 @@
 #include "nc/iso/line.hpp"
 #include "nc/iso/parser.hpp"
 #include "nc/iso/printer.hpp"
-#include "nc/klartext/lexer.hpp"
-#include "nc/klartext/parser.hpp"
 #include "nc/klartext/parser_rules.hpp"
 #include "nc/klartext/printer.hpp"
 #include "nc/probing/cycles.hpp"

@@ -1,6 +1,5 @@
 #include "cli/record_commands.hpp"
 
-#include "base/length.hpp"
 #include "cli/address.hpp"
 #include "cli/answers.hpp"
 #include "cli/local_files.hpp"

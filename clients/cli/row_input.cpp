@@ -1,11 +1,9 @@
 #include "cli/row_input.hpp"
 
-#include "base/length.hpp"
 #include "cli/address.hpp"
 #include "cli/local_files.hpp"
 #include "formats/dfq/measurement_csv.hpp"
 #include "formats/qif/qif.hpp"
-#include "formats/sheet/record_reader.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -1,5 +1,4 @@
 #include "cli/address.hpp"
-#include "cli/commands.hpp"
 #include "cli/local_files.hpp"
 #include "cli/nc_commands.hpp"
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/clock.hpp"
 #include "formats/certificate/certificate.hpp"
 #include "http/route.hpp"
 #include "service/state/readiness.hpp"

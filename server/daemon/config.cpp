@@ -5,7 +5,6 @@
 
 #include "base/folder.hpp"
 #include "daemon/parts.hpp"
-#include "plant/virtual_control/virtual_control.hpp"
 #include "service/log/log_keys.hpp"
 
 namespace fitgauge::daemon {

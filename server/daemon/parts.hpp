@@ -4,17 +4,12 @@
 #include <filesystem>
 
 #include "api/service/metrics.hpp"
-#include "api/services.hpp"
-#include "base/clock.hpp"
 #include "daemon/config.hpp"
-#include "http/server.hpp"
 #include "plant/centre/forwarder.hpp"
 #include "plant/connections.hpp"
 #include "plant/mtconnect/shdr_adapter.hpp"
-#include "plant/plant.hpp"
 #include "plant/virtual_control/virtual_control.hpp"
 #include "service/application.hpp"
-#include "service/documents/key_service.hpp"
 
 namespace fitgauge::daemon {
 

@@ -3,9 +3,6 @@
 #include <random>
 
 #include "base/folder.hpp"
-#include "http/engine/asio.hpp"
-#include "http/engine/exchange.hpp"
-#include "http/engine/io_thread.hpp"
 #include "http/engine/transports.hpp"
 
 namespace fitgauge::http {

@@ -3,7 +3,6 @@
 #include <sstream>
 
 #include "api/measurements/measurement_listing.hpp"
-#include "metrology/gauging/gauge.hpp"
 #include "record/record.hpp"
 #include "record/verdict_codec.hpp"
 

@@ -2,7 +2,6 @@
 
 #include "api/plans/characteristic_key.hpp"
 #include "api/resources.hpp"
-#include "formats/certificate/certificate.hpp"
 #include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {

@@ -6,8 +6,6 @@
 #include "api/wire/formulas.hpp"
 #include "metrology/statistics/fit_analysis.hpp"
 #include "service/jobs.hpp"
-#include "service/tables/table_catalog.hpp"
-#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::api {
 namespace {

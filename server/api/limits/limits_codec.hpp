@@ -3,8 +3,6 @@
 #include "base/json/body_forms.hpp"
 #include "http/response.hpp"
 #include "service/measurements/measurement_service.hpp"
-#include "tables/iso286/tolerance_tables.hpp"
-#include "tables/standards/designated_limits.hpp"
 
 namespace fitgauge::api {
 

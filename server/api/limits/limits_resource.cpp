@@ -3,7 +3,6 @@
 #include "api/wire/formulas.hpp"
 #include "metrology/statistics/fit_analysis.hpp"
 #include "metrology/statistics/limit_gauge.hpp"
-#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -1,7 +1,6 @@
 #include "api/resources.hpp"
 
 #include "api/limits/limits_codec.hpp"
-#include "tables/standards/standard.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -3,8 +3,6 @@
 #include "api/handlers.hpp"
 #include "api/limits/limits_codec.hpp"
 #include "record/verdict_codec.hpp"
-#include "service/tables/table_catalog.hpp"
-#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::api {
 namespace {

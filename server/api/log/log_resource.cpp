@@ -1,6 +1,5 @@
 #include "api/handlers.hpp"
 #include "api/resources.hpp"
-#include "base/digest.hpp"
 #include "base/json/json_writer.hpp"
 #include "service/log/log_service.hpp"
 #include "service/measurements/measurement_service.hpp"

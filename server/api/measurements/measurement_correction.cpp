@@ -1,6 +1,5 @@
 #include "api/measurements/measurement_posting.hpp"
 
-#include "base/length.hpp"
 #include "record/measurement_row_reader.hpp"
 #include "service/log/log_service.hpp"
 #include "service/measurements/gauges_in_use.hpp"

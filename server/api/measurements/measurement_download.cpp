@@ -2,8 +2,6 @@
 
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_file.hpp"
-#include "base/thread.hpp"
-#include "formats/sheet/time_zone.hpp"
 #include "record/record.hpp"
 #include "service/jobs.hpp"
 

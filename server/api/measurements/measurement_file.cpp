@@ -2,7 +2,6 @@
 
 #include "formats/xlsx/workbook.hpp"
 #include "record/record_members.hpp"
-#include "record/verdict_codec.hpp"
 
 namespace fitgauge::api {
 namespace {

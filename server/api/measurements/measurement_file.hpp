@@ -2,7 +2,6 @@
 
 #include "formats/dfq/dfq_writer.hpp"
 #include "formats/qif/qif.hpp"
-#include "record/measurement.hpp"
 
 namespace fitgauge::api {
 

@@ -1,6 +1,5 @@
 #include "api/resources.hpp"
 
-#include "api/handlers.hpp"
 #include "api/measurements/measurement_listing.hpp"
 #include "api/measurements/measurement_posting.hpp"
 #include "record/record.hpp"

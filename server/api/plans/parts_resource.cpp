@@ -2,7 +2,6 @@
 #include "api/plans/characteristic_key.hpp"
 #include "api/resources.hpp"
 #include "base/json/body_forms.hpp"
-#include "metrology/gauging/gauge.hpp"
 #include "record/record_members.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/measurements/measurement_service.hpp"

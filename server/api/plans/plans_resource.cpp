@@ -4,7 +4,6 @@
 #include "record/measurement_row_reader.hpp"
 #include "service/jobs.hpp"
 #include "service/measurements/gauges_in_use.hpp"
-#include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -1,9 +1,6 @@
 #pragma once
 
 #include "api/services.hpp"
-#include "http/request.hpp"
-#include "http/response.hpp"
-#include "nc/machine/machine_setup.hpp"
 #include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {

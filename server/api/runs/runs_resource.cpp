@@ -3,8 +3,6 @@
 #include "api/runs/run_posting.hpp"
 #include "api/wire/event_text.hpp"
 #include "api/wire/request_facts.hpp"
-#include "base/json/json_value.hpp"
-#include "record/measurement.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/json/body_forms.hpp"
-#include "base/json/schema.hpp"
 #include "nc/run/interpreter.hpp"
 #include "service/runs/control_tables.hpp"
 

@@ -3,8 +3,6 @@
 #include "api/service/metrics.hpp"
 #include "base/json/json_writer.hpp"
 #include "service/log/log_service.hpp"
-#include "service/state/readiness.hpp"
-#include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "api/resources.hpp"
 #include "base/json/body_forms.hpp"
-#include "base/json/json_value.hpp"
 #include "metrology/statistics/control_chart.hpp"
 
 namespace fitgauge::api {

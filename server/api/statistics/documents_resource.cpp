@@ -2,7 +2,6 @@
 #include "api/service/document_routes.hpp"
 #include "api/statistics/statistics_answers.hpp"
 #include "api/wire/request_facts.hpp"
-#include "base/json/body_forms.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 
 namespace fitgauge::api {

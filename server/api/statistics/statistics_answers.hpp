@@ -3,8 +3,6 @@
 #include "api/statistics/computation.hpp"
 #include "api/statistics/value_selection.hpp"
 #include "api/wire/formulas.hpp"
-#include "base/json/schema.hpp"
-#include "metrology/statistics/process_model.hpp"
 
 namespace fitgauge::api {
 

@@ -2,7 +2,6 @@
 #include "api/statistics/statistics_answers.hpp"
 #include "metrology/statistics/fit_analysis.hpp"
 #include "metrology/statistics/gauge_study.hpp"
-#include "metrology/statistics/zone_rules.hpp"
 
 namespace fitgauge::api {
 

@@ -1,4 +1,3 @@
-#include "api/resources.hpp"
 
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_listing.hpp"

@@ -4,7 +4,6 @@
 #include "api/wire/request_facts.hpp"
 #include "http/field_list.hpp"
 #include "service/tables/custom_column.hpp"
-#include "tables/iso286/tolerance_class.hpp"
 #include "tables/tabfile/iso286_projection.hpp"
 
 namespace fitgauge::api {

@@ -4,7 +4,6 @@
 
 #include "base/clock.hpp"
 #include "base/json/body.hpp"
-#include "base/json/field_reader.hpp"
 
 // The usual forms of members of a body. Bounds of a form belong to its schema and to its reader.
 

@@ -4,7 +4,6 @@
 #include "http/engine/answer.hpp"
 #include "http/engine/asio.hpp"
 #include "http/engine/body_reader.hpp"
-#include "http/route.hpp"
 #include "http/server.hpp"
 
 namespace fitgauge::http {
