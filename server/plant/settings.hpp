@@ -54,7 +54,7 @@ struct Choice : api::OneOf<size> {
 
   template <class T>
   bool read(api::FieldReader& fields, std::string_view name, T& to) const {
-    const auto found = api::find_listed(fields, name, *this);
+    const auto found = api::find_word(fields, name, *this, true);
     if (found) to = static_cast<T>(*found);
     return found.has_value();
   }

@@ -251,20 +251,15 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
     if (worst() != nullptr) json.member("worst_id", worst()->id);
     if (has_verdict()) json.member("verdict", word(worst()->verdict));
     if (measured_again() > 0) {
-      json.key("measured_again").begin_array();
-      for (const Counted& value : values_) {
+      json.list("measured_again", values_, [&](const Counted& value) {
         if (!value.candidate.counts) json.value(value.id);
-      }
-      json.end_array();
+      });
     }
     if (plan_) {
       if (plan_->plan) json.member("plan", *plan_->plan);
-      json.key("missing").begin_array();
-      for (const std::string& name : plan_->missing) json.value(name);
-      json.end_array();
+      json.list("missing", plan_->missing);
     }
-    json.key("gauges").begin_array();
-    for (const UsedGauge& gauge : gauges_) {
+    json.list("gauges", gauges_, [&](const UsedGauge& gauge) {
       json.begin_object().member("name", gauge.name);
       if (!gauge.overdue_since.empty()) json.member("calibration_due", gauge.overdue_since);
       if (!gauge.certificate.empty()) json.member("calibration_certificate", gauge.certificate);
@@ -273,8 +268,8 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
       if (!gauge.budget.empty()) json.member("uncertainty", gauge.budget);
       if (gauge.standard_uncertainty) json.member_um("uncertainty_um", *gauge.standard_uncertainty);
       json.end_object();
-    }
-    json.end_array().member("checkpoint", checkpoint);
+    });
+    json.member("checkpoint", checkpoint);
     json.key("measurements").raw("[" + records_ + "]");
   });
 }

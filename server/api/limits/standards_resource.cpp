@@ -27,11 +27,8 @@ Result<Response> list(const Request& /*request*/, const iso286::ToleranceTables&
   for (const Standard& standard : standards::all()) {
     json.begin_object();
     write_identity(json, standard);
-    json.key("tables").begin_array();
-    for (const standards::Table& table : standard.tables) json.value(table.name);
-    json.end_array().key("sources").begin_array();
-    for (const std::string_view source : standard.sources) json.value(source);
-    json.end_array().end_object();
+    json.list("tables", standard.tables, &standards::Table::name);
+    json.list("sources", standard.sources).end_object();
     etag += standard.revision.substr(standard.revision.size() - 8);
   }
   json.end_array().end_object();

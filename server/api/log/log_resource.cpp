@@ -45,9 +45,8 @@ void tile(const Services& services, const Request& request, Responder responder)
 std::string proof_json(const app::LogService::Proof& proof) {
   return json_object([&](JsonWriter& json) {
     json.member("index", proof.index).member("size", proof.head->checkpoint.size);
-    json.member("leaf", tlog::to_base64(proof.leaf)).key("hashes").begin_array();
-    for (const tlog::Hash& hash : proof.path) json.value(tlog::to_base64(hash));
-    json.end_array().member("checkpoint", proof.head->note);
+    json.member("leaf", tlog::to_base64(proof.leaf));
+    json.list("hashes", proof.path, tlog::to_base64).member("checkpoint", proof.head->note);
   });
 }
 

@@ -65,16 +65,14 @@ void write_verdict_counts(JsonWriter& json, const app::VerdictTally& verdicts) {
 std::string summary_json(std::string_view group_by, std::span<const app::MeasurementGroup> groups) {
   return json_object([&](JsonWriter& json) {
     write_formula(json, "stored_summary");
-    json.key("groups").begin_array();
-    for (const app::MeasurementGroup& group : groups) {
+    json.list("groups", groups, [&](const app::MeasurementGroup& group) {
       json.begin_object().member(group_by, group.value).member("count", group.count);
       write_verdict_counts(json, group.verdicts);
       json.key("mean_mm").raw(group.mean_mm);
       json.key("standard_deviation_mm").raw(group.standard_deviation_mm.value_or("null"));
       json.member_mm("min_mm", Length::nanometres(group.min_nm));
       json.member_mm("max_mm", Length::nanometres(group.max_nm)).end_object();
-    }
-    json.end_array();
+    });
   });
 }
 

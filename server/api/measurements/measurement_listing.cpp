@@ -46,9 +46,7 @@ void append_notes(std::string& out, std::span<const app::Note> notes) {
   out.pop_back();
   out += app::sets_aside(notes) ? ",\"set_aside\":true,\"notes\":" : ",\"notes\":";
   JsonWriter json(out);
-  json.begin_array();
-  for (const app::Note& note : notes) write_body(json, note);
-  json.end_array();
+  List<app::Note>{}.write(json, notes);
   out += '}';
 }
 

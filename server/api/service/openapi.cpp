@@ -41,9 +41,7 @@ void write_schema(JsonWriter& json, const http::ParameterType& type) {
             json.key("type").begin_array().value("number").value("string").end_array();
           },
           [&](const http::Words& words) {
-            json.member("type", "string").key("enum").begin_array();
-            for (const std::string& word : words.words) json.value(word);
-            json.end_array();
+            json.member("type", "string").list("enum", words.words);
           },
           [&](const http::Time&) { json.member("type", "string").member("format", "date-time"); },
       },
@@ -62,8 +60,10 @@ std::string_view place(http::ParameterPlace place) {
 
 /// The example of a body: of JSON that of its schema, of others a text.
 std::string example_of(std::string_view type, const std::string& schema, const Schemas& schemas) {
-  if (type == "text/csv") return json_string("designation,measured_mm,part_id\n25 H7,25.013,SN-1\n");
-  if (type == "application/octet-stream") return json_string("BEGIN PGM BORE MM\nEND PGM BORE MM\n");
+  if (type == "text/csv")
+    return json_string("designation,measured_mm,part_id\n25 H7,25.013,SN-1\n");
+  if (type == "application/octet-stream")
+    return json_string("BEGIN PGM BORE MM\nEND PGM BORE MM\n");
   const auto named = std::ranges::find(schemas, schema, &NamedSchema::name);
   if (named == schemas.end()) return {};
   if (type == "application/x-ndjson") return json_string(named->example + '\n');
@@ -224,15 +224,11 @@ void write_operation(JsonWriter& json, const http::Route& route, const Schemas& 
   json.key(ascii_lower(http::name(route.method)))
       .begin_object()
       .member("operationId", route.operation)
-      .key("tags")
-      .begin_array()
-      .value(route.tag)
-      .end_array()
+      .list("tags", std::array{route.tag})
       .member("summary", route.summary);
   json.member("description", route.description.empty() ? route.summary : route.description);
   if (!route.parameters.empty()) {
-    json.key("parameters").begin_array();
-    for (const Parameter& parameter : route.parameters) {
+    json.list("parameters", route.parameters, [&json](const Parameter& parameter) {
       json.begin_object()
           .member("name", parameter.name)
           .member("in", place(parameter.place))
@@ -240,8 +236,7 @@ void write_operation(JsonWriter& json, const http::Route& route, const Schemas& 
           .member("description", parameter.description);
       write_schema(json, parameter.type);
       json.end_object();
-    }
-    json.end_array();
+    });
   }
   write_request_body(json, route.body, schemas);
   write_responses(json, route);
@@ -286,11 +281,9 @@ void write_info(JsonWriter& json) {
   json.member("identifier", "Apache-2.0").end_object().end_object();
   json.key("servers").begin_array().begin_object().member("url", "/");
   json.member("description", "The service that sent this response").end_object().end_array();
-  json.key("tags").begin_array();
-  for (const auto& [name, description] : kTags) {
-    json.begin_object().member("name", name).member("description", description).end_object();
-  }
-  json.end_array();
+  json.list("tags", kTags, [&json](const auto& tag) {
+    json.begin_object().member("name", tag.first).member("description", tag.second).end_object();
+  });
 }
 
 /// The answer of a refusal, with a header of its status.

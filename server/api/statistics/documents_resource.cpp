@@ -149,17 +149,15 @@ void list_calibrations(const Services& services, const Request& request, Respond
           if (app::gauge_of_calibration(name) != gauge) continue;
           found.emplace(parse_from(name.substr(gauge.size() + 1)), calibration.text);
         }
-        std::string body;
-        JsonWriter json(body);
-        json.begin_object().key("calibrations").begin_array();
-        for (const auto& [from, text] : found) json.raw(text);
-        json.end_array().end_object();
         if (found.empty() && std::none_of((*lists)[0].begin(), (*lists)[0].end(),
                                           [&](const auto& each) { return each.name == gauge; })) {
           return shared->fail(
               {ErrorCode::GaugeUnknown, fmt::format("gauge in use not found: '{}'", gauge)});
         }
-        shared->answer({200, "application/json", std::move(body)});
+        shared->answer({200, "application/json", json_object([&](JsonWriter& json) {
+                          json.list("calibrations", found,
+                                    [&](const auto& each) { json.raw(each.second); });
+                        })});
       });
 }
 

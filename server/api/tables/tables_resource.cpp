@@ -89,17 +89,16 @@ std::string table_csv(const std::vector<ClassId>& classes, const ToleranceTables
 
 std::string table_index_json(const ToleranceTables& tables) {
   return json_object([&](JsonWriter& json) {
-    json.member("revision", tables.revision().id).key("tables").begin_array();
-    for (const Feature feature : {Feature::Hole, Feature::Shaft}) {
-      json.begin_object().member("feature", word(feature)).key("classes").begin_array();
-      for (const ClassId id : tables.classes(feature)) json.value(tables.class_name(id));
-      json.end_array().key("own").begin_array();
-      for (const ClassId id : tables.classes(feature)) {
+    json.member("revision", tables.revision().id);
+    json.list("tables", std::array{Feature::Hole, Feature::Shaft}, [&](Feature feature) {
+      const auto name_of = [&](ClassId id) { return tables.class_name(id); };
+      const auto& classes = tables.classes(feature);
+      json.begin_object().member("feature", word(feature)).list("classes", classes, name_of);
+      json.list("own", classes, [&](ClassId id) {
         if (tables.basis(id) == iso286::Basis::Custom) json.value(tables.class_name(id));
-      }
-      json.end_array().member("size_ranges", std::uint64_t{tables.ranges().size()}).end_object();
-    }
-    json.end_array();
+      });
+      json.member("size_ranges", std::uint64_t{tables.ranges().size()}).end_object();
+    });
   });
 }
 

@@ -41,9 +41,7 @@ Response problem(const Error& error, std::optional<int> given, const Request& re
     json.member("code", id(error.code));
     if (!error.where.empty()) json.member("where", error.where);
     if (error.details.empty()) return;
-    json.key("errors").begin_array();
-    for (const Error& detail : error.details) write_detail(json, detail);
-    json.end_array();
+    json.list("errors", error.details, [&](const Error& detail) { write_detail(json, detail); });
   });
   Response response(status, "application/problem+json", std::move(body));
   add_headers(error, status, response);

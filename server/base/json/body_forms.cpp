@@ -67,24 +67,14 @@ bool Number::read(FieldReader& fields, std::string_view name, double& to) const 
 }
 
 std::optional<std::size_t> find_word(FieldReader& fields, std::string_view name,
-                                     std::span<const std::string_view> words) {
+                                     std::span<const std::string_view> words, bool is_listed) {
   const auto given = fields.text(name);
   if (!given) return std::nullopt;
-  const auto found = std::find(words.begin(), words.end(), *given);
+  const auto found = std::ranges::find(words, *given);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  fields.report(ErrorCode::FieldInvalid, name, "{} must be \"{}\"", name,
-                fmt::join(words, "\" or \""));
-  return std::nullopt;
-}
-
-std::optional<std::size_t> find_listed(FieldReader& fields, std::string_view name,
-                                       std::span<const std::string_view> words) {
-  const auto given = fields.text(name);
-  if (!given) return std::nullopt;
-  const auto found = std::find(words.begin(), words.end(), *given);
-  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  fields.report(ErrorCode::FieldInvalid, name, "{} must be one of: {}", name,
-                fmt::join(words, ", "));
+  fields.report(ErrorCode::FieldInvalid, name,
+                is_listed ? fmt::format("{} must be one of: {}", name, fmt::join(words, ", "))
+                          : fmt::format("{} must be \"{}\"", name, fmt::join(words, "\" or \"")));
   return std::nullopt;
 }
 

@@ -84,6 +84,13 @@ struct FormOf<std::array<T, size>> {
   using Type = List<T>;
 };
 
+/// Sets a variable to a value that was read. @returns whether there is one.
+template <class T>
+bool put(const std::optional<T>& given, auto& to) {
+  if (given) to = static_cast<std::remove_reference_t<decltype(to)>>(*given);
+  return given.has_value();
+}
+
 /// A text with a limit of bytes.
 struct Text {
   std::size_t longest = 0;  ///< 0: as long as a body may be
@@ -120,9 +127,7 @@ struct Word {
 struct Flag {
   std::string schema(Side) const { return schema::boolean(); }
   bool read(FieldReader& fields, std::string_view name, bool& to) const {
-    const auto given = fields.boolean(name);
-    to = given.value_or(to);
-    return given.has_value();
+    return put(fields.boolean(name), to);
   }
   void write(JsonWriter& json, bool from) const { json.value(from); }
 };
@@ -139,9 +144,7 @@ struct Integer {
   std::string schema(Side) const;
   template <class T>
   bool read(FieldReader& fields, std::string_view name, T& to) const {
-    const auto given = fields.integer(name, least, most);
-    if (given) to = static_cast<T>(*given);
-    return given.has_value();
+    return put(fields.integer(name, least, most), to);
   }
   template <std::integral T>
   void write(JsonWriter& json, T from) const {
@@ -190,9 +193,7 @@ struct Millimetres {
     return side == Side::Order ? schema::exact() : schema::number();
   }
   bool read(FieldReader& fields, std::string_view name, Length& to) const {
-    const auto given = fields.mm(name);
-    to = given.value_or(to);
-    return given.has_value();
+    return put(fields.mm(name), to);
   }
   bool read(FieldReader& fields, std::string_view name, double& to) const {
     const auto given = fields.mm(name);
@@ -204,9 +205,7 @@ struct Millimetres {
 };
 struct Micrometres : Millimetres {
   bool read(FieldReader& fields, std::string_view name, Length& to) const {
-    const auto given = fields.um(name);
-    to = given.value_or(to);
-    return given.has_value();
+    return put(fields.um(name), to);
   }
   bool read(FieldReader& fields, std::string_view name, double& to) const {
     constexpr double kNanometres = 1000;
@@ -218,12 +217,11 @@ struct Micrometres : Millimetres {
   void write(JsonWriter& json, double from) const { json.value(from); }
 };
 
-/// @returns the place of a member's word; reports another word, or none.
+/// @returns the place of a member's word; reports another word, as `name must be one of: a, b` if
+/// it is listed, else as `name must be "a" or "b"`.
 std::optional<std::size_t> find_word(FieldReader& fields, std::string_view name,
-                                     std::span<const std::string_view> words);
-/// Returns the place of a member's word; reports another word as `name is a, b or c`.
-std::optional<std::size_t> find_listed(FieldReader& fields, std::string_view name,
-                                       std::span<const std::string_view> words);
+                                     std::span<const std::string_view> words,
+                                     bool is_listed = false);
 
 /// One of some words, for the values of a type from 0.
 template <std::size_t size>
@@ -231,9 +229,7 @@ struct OneOf : std::array<std::string_view, size> {
   std::string schema(Side) const { return schema::words({this->begin(), this->end()}); }
   template <class T>
   bool read(FieldReader& fields, std::string_view name, T& to) const {
-    const auto found = find_word(fields, name, *this);
-    if (found) to = static_cast<T>(*found);
-    return found.has_value();
+    return put(find_word(fields, name, *this), to);
   }
   template <class T>
   void write(JsonWriter& json, const T& from) const {
@@ -257,9 +253,7 @@ struct Words {
   }
   std::string schema(Side) const { return schema::words(all()); }
   bool read(FieldReader& fields, std::string_view name, E& to) const {
-    const auto found = find_listed(fields, name, all());
-    if (found) to = static_cast<E>(*found);
-    return found.has_value();
+    return put(find_word(fields, name, all(), true), to);
   }
   void write(JsonWriter& json, E from) const { json.value(word(from)); }
 };

@@ -70,6 +70,19 @@ class JsonWriter {
   JsonWriter& member(std::string_view name, const T& content) {
     return key(name).value(content);
   }
+  /// An array of what `of` makes of each item: a value, or nothing because it has written itself.
+  template <class Items, class Of = std::identity>
+  JsonWriter& list(std::string_view name, const Items& items, const Of& of = {}) {
+    key(name).begin_array();
+    for (const auto& item : items) {
+      if constexpr (std::is_void_v<decltype(std::invoke(of, item))>) {
+        std::invoke(of, item);
+      } else {
+        value(std::invoke(of, item));
+      }
+    }
+    return end_array();
+  }
   JsonWriter& member_mm(std::string_view name, Length length) { return key(name).mm(length); }
   JsonWriter& member_um(std::string_view name, Length length) { return key(name).um(length); }
 
