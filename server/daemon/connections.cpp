@@ -273,7 +273,7 @@ void write_outbox_metrics(const forwarder::Forwarder* forwarder, const Clock& cl
   // The metrics exist without a centre too.
   const auto state = forwarder == nullptr ? std::nullopt : std::optional(forwarder->state());
   out.gauge("fitgauge_outbox_rows", "Measurements that have not reached the centre");
-  if (state) out.sample(static_cast<double>(state->rows));
+  if (state) out.sample(state->rows);
   out.gauge("fitgauge_outbox_oldest_seconds", "Waiting time of the oldest of these measurements");
   if (!state) return;
   const std::int64_t now = clock.now().nanoseconds;

@@ -69,12 +69,11 @@ std::pair<double, double> memory() {
 
 void write_server_metrics(const http::Server& server, api::Exposition& out) {
   const http::ServerCounters counters = server.counters();
-  out.gauge("fitgauge_http_connections", "Open connections")
-      .sample(static_cast<double>(counters.connections_open));
+  out.gauge("fitgauge_http_connections", "Open connections").sample(counters.connections_open);
   out.counter("fitgauge_http_connections_refused_total", "Connections beyond max_connections")
-      .sample(static_cast<double>(counters.connections_refused));
+      .sample(counters.connections_refused);
   out.gauge("fitgauge_http_body_bytes", "Bytes of request bodies in memory")
-      .sample(static_cast<double>(counters.body_bytes_in_flight));
+      .sample(counters.body_bytes_in_flight);
 }
 
 void write_application_metrics(app::Application& app, api::Exposition& out) {
@@ -82,21 +81,19 @@ void write_application_metrics(app::Application& app, api::Exposition& out) {
       .sample(app.readiness().findings.empty() ? 1 : 0);
   const store::Writer& writer = app.database().writer();
   const store::WriterCounters& counters = writer.counters();
-  out.gauge("fitgauge_writer_queue_jobs", "Jobs that wait for the writer")
-      .sample(static_cast<double>(writer.queued()));
+  out.gauge("fitgauge_writer_queue_jobs", "Jobs that wait for the writer").sample(writer.queued());
   out.histogram("fitgauge_writer_batch_jobs", "Jobs that one commit stored")
       .sample(counters.batch_jobs);
   out.histogram("fitgauge_writer_commit_duration_seconds",
                 "Time of a transaction from its begin to the disk")
       .sample(counters.commit_seconds);
   out.counter("fitgauge_writer_failures_total", "Commits and maintenance steps that failed")
-      .sample(static_cast<double>(counters.failed_commits));
+      .sample(counters.failed_commits);
   out.gauge("fitgauge_event_readers", "Open streams of /v1/events, and outgoing connections")
-      .sample(static_cast<double>(app.events().readers()));
+      .sample(app.events().readers());
   const app::RunService::Counts runs = app.runs().counts();
   const auto sample = [&](app::RunState state) {
-    out.sample(static_cast<double>(runs[static_cast<std::size_t>(state)]),
-               {{"status", word(state)}});
+    out.sample(runs[static_cast<std::size_t>(state)], {{"status", word(state)}});
   };
   out.gauge("fitgauge_runs_active", "NC programs that wait or run");
   for (const auto state : {app::RunState::Queued, app::RunState::Running}) sample(state);
@@ -118,14 +115,14 @@ void write_storage_metrics(const app::Application& app, const fs::path& folder,
   app::Database& database = app.database();
   const auto server = database.server_figures();
   out.gauge("fitgauge_reader_queue_jobs", "Jobs that wait for a reader of the database")
-      .sample(static_cast<double>(database.readers().queued()));
+      .sample(database.readers().queued());
   // Every metric is listed; samples only if the engine knows them.
   out.gauge("fitgauge_database_standbys", "Standby servers of the database");
-  if (server) out.sample(static_cast<double>(server->standbys));
+  if (server) out.sample(server->standbys);
   out.gauge("fitgauge_database_standby_behind_bytes",
             "Bytes of the write-ahead log that are not on the disk of the slowest server");
   if (server && server->standby_behind_bytes) {
-    out.sample(static_cast<double>(*server->standby_behind_bytes));
+    out.sample(*server->standby_behind_bytes);
   }
   struct statvfs space {};
   const bool has_files = !app.is_on_server() && statvfs(folder.c_str(), &space) == 0;
@@ -134,9 +131,9 @@ void write_storage_metrics(const app::Application& app, const fs::path& folder,
     out.sample(static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize));
   }
   out.gauge("fitgauge_wal_pages", "Pages in the write-ahead log after the last commit");
-  if (has_files) out.sample(static_cast<double>(database.writer().counters().log_pages));
+  if (has_files) out.sample(database.writer().counters().log_pages);
   out.gauge("fitgauge_database_bytes", "Size of the database");
-  if (server) out.sample(static_cast<double>(server->database_bytes), {{"file", "database"}});
+  if (server) out.sample(server->database_bytes, {{"file", "database"}});
   if (!has_files) return;
   out.sample(size_of(folder / "fitgauge.db"), {{"file", "database"}});
   out.sample(size_of(folder / "fitgauge.db-wal"), {{"file", "wal"}});
@@ -192,11 +189,9 @@ void write_process_metrics(api::Exposition& out) {
   out.gauge("process_resident_memory_bytes", "Memory in use").sample(resident);
   out.gauge("process_virtual_memory_bytes", "Size of the address space").sample(address_space);
   out.gauge("process_open_fds", "Open files").sample(open_files());
-  out.gauge("process_max_fds", "Largest number of open files")
-      .sample(static_cast<double>(files.rlim_cur));
+  out.gauge("process_max_fds", "Largest number of open files").sample(files.rlim_cur);
   out.gauge("process_start_time_seconds", "Start of the process, since 1970").sample(started);
-  out.counter("fitgauge_log_lines_lost_total", "Log lines that were lost")
-      .sample(static_cast<double>(log_lines_lost()));
+  out.counter("fitgauge_log_lines_lost_total", "Log lines that were lost").sample(log_lines_lost());
 }
 
 }  // namespace fitgauge::daemon

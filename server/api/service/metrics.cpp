@@ -118,7 +118,7 @@ std::string Metrics::text() const {
     for (const auto& [key, requests] : requests_) {
       // A method the service does not know is the client's text: it must not become a label.
       const http::Method method = std::get<http::Method>(key);
-      out.sample(static_cast<double>(requests.count),
+      out.sample(requests.count,
                  {{"route", requests.route},
                   {"method", method == http::Method::Other ? "other" : http::name(method)},
                   {"status", std::to_string(std::get<int>(key))}});
@@ -128,7 +128,7 @@ std::string Metrics::text() const {
     for (const auto& [route, seconds] : seconds_) out.sample(seconds, {{"route", route}});
     out.counter("fitgauge_problems_total", "Problem documents answered, by their code");
     for (const auto& [code, count] : problems_) {
-      out.sample(static_cast<double>(count), {{"code", id(code)}});
+      out.sample(count, {{"code", id(code)}});
     }
     sources = sources_;
   }
@@ -188,7 +188,7 @@ void VerdictCounts::write(Exposition& out) const {
   out.counter("fitgauge_measurements_total", "Measurements recorded, by source and verdict");
   for (std::size_t source = 0; source < kSources; ++source) {
     for (std::size_t verdict = 0; verdict < gauging::kVerdicts; ++verdict) {
-      out.sample(static_cast<double>(counts_[source][verdict]),
+      out.sample(counts_[source][verdict],
                  {{"source", word(static_cast<app::Source>(source))},
                   {"verdict", word(static_cast<gauging::Verdict>(verdict))}});
     }

@@ -23,6 +23,9 @@ class Exposition {
   }
 
   Exposition& sample(double value, Labels labels = {});
+  Exposition& sample(std::integral auto count, Labels labels = {}) {
+    return sample(static_cast<double>(count), labels);
+  }
 
   /// The samples of one histogram of the family.
   template <std::size_t N>
