@@ -1,4 +1,4 @@
-#include "cli/csv_chunks.hpp"
+#include "cli/measure_command.hpp"
 
 namespace fitgauge::cli {
 namespace {

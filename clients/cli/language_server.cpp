@@ -3,7 +3,7 @@
 #include <iostream>
 #include <regex>
 
-#include "cli/program_help.hpp"
+#include "cli/open_programs.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/measure_journal.hpp"
+#include "cli/measure_command.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>

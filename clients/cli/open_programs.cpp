@@ -3,7 +3,6 @@
 #include "cli/address.hpp"
 #include "cli/folder_disk.hpp"
 #include "cli/local_files.hpp"
-#include "cli/program_help.hpp"
 #include "http/engine/request_head.hpp"
 #include "nc/iso/parser.hpp"
 #include "nc/klartext/syntax.hpp"

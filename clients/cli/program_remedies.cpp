@@ -1,4 +1,4 @@
-#include "cli/program_help.hpp"
+#include "cli/open_programs.hpp"
 
 #include "nc/klartext/parser_rules.hpp"
 #include "nc/program/cycles.hpp"

@@ -1,4 +1,4 @@
-#include "daemon/commands.hpp"
+#include "daemon/parts.hpp"
 
 #include <iostream>
 

@@ -1,4 +1,4 @@
-#include "daemon/commands.hpp"
+#include "daemon/parts.hpp"
 
 #include <unistd.h>
 #include <CLI/CLI.hpp>
@@ -7,7 +7,6 @@
 #include <iostream>
 
 #include "daemon/log.hpp"
-#include "daemon/parts.hpp"
 
 namespace fitgauge::daemon {
 namespace {

@@ -1,4 +1,4 @@
-#include "daemon/commands.hpp"
+#include "daemon/parts.hpp"
 
 #include <pthread.h>
 #include <unistd.h>
@@ -9,7 +9,6 @@
 #include "api/service/guard.hpp"
 #include "api/wire/problem.hpp"
 #include "daemon/log.hpp"
-#include "daemon/parts.hpp"
 
 namespace fitgauge::daemon {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/measure_journal.hpp"
+#include "cli/measure_command.hpp"
 
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "cli/local_files.hpp"
-#include "cli/measure_command.hpp"
 
 using namespace fitgauge::cli;
 
