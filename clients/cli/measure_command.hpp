@@ -4,7 +4,6 @@
 #include "base/folder.hpp"
 #include "base/json/body_forms.hpp"
 #include "cli/context.hpp"
-#include "cli/outcome.hpp"
 
 namespace fitgauge::cli {
 

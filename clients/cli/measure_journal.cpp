@@ -7,9 +7,7 @@
 #include <cerrno>
 #include <filesystem>
 
-#include "cli/json_object.hpp"
 #include "cli/local_files.hpp"
-#include "cli/terminal.hpp"
 
 namespace fitgauge::cli {
 namespace {

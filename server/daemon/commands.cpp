@@ -2,10 +2,7 @@
 
 #include <iostream>
 
-#include "api/services.hpp"
 #include "base/folder.hpp"
-#include "http/client/http_client.hpp"
-#include "http/server.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/qualification/qualification.hpp"
 
