@@ -7,9 +7,8 @@ constexpr std::string_view kDrive = "TNC:\\";
 
 /// Without the drive, with `/` between the folders.
 std::string slashed(std::string_view path) {
-  if (ascii_iequals(path.substr(0, kDrive.size() - 1), "TNC:")) {
+  if (ascii_iequals(path.substr(0, kDrive.size() - 1), "TNC:"))
     path.remove_prefix(kDrive.size() - 1);
-  }
   std::string out(path);
   std::replace(out.begin(), out.end(), '\\', '/');
   return out.substr(std::min(out.find_first_not_of('/'), out.size()));

@@ -25,9 +25,8 @@ std::string_view kind_of(const CLI::Option& option) {
   const std::string word = ' ' + name.substr(name.find_last_of(" -", name.size() - 2) + 1);
   const std::string type = option.get_type_name();
   for (const auto& [kind, words] : kValueKinds) {
-    if (type == kind || words.find(name) != words.npos || words.find(word) != words.npos) {
+    if (type == kind || words.find(name) != words.npos || words.find(word) != words.npos)
       return kind;
-    }
   }
   return "TEXT";
 }
@@ -108,9 +107,8 @@ std::string zsh_arguments(const CLI::App& app) {
 
 void add_zsh(std::string& out, const CLI::App& app, const std::string& function) {
   const auto commands = commands_of(app);
-  for (const CLI::App* command : commands) {
+  for (const CLI::App* command : commands)
     add_zsh(out, *command, function + '_' + command->get_name());
-  }
   out += function + "() {\n";
   if (commands.empty()) {
     out += "  _arguments" + zsh_arguments(app) + "\n}\n";

@@ -73,9 +73,8 @@ CLI::App* add_words(CLI::App& parent, const std::string& name, const std::string
                     const Run& run) {
   const auto values = std::make_shared<Words>(words.size());
   CLI::App* command = parent.add_subcommand(name, help);
-  for (std::size_t i = 0; i < words.size(); ++i) {
+  for (std::size_t i = 0; i < words.size(); ++i)
     command->add_option(words[i].name, values->at(i), words[i].help)->required(i < required);
-  }
   command->callback([&chosen, values, run] {
     chosen = [values, run](const Context& context) { return run(context, *values); };
   });

@@ -150,13 +150,11 @@ std::string json_array(const std::vector<std::string>& items) {
 
 std::string state_json(const MachineState& machine) {
   JsonObject axes;
-  for (std::size_t i = 0; i < machine.axes.names.size(); ++i) {
+  for (std::size_t i = 0; i < machine.axes.names.size(); ++i)
     axes.add(machine.axes.names[i], machine.axes.positions[i]);
-  }
   std::vector<std::string> errors;
-  for (const auto& error : machine.errors) {
+  for (const auto& error : machine.errors)
     errors.push_back(JsonObject().add("number", error.number).add("text", error.text).text());
-  }
   const auto percent = [](std::uint32_t hundredths) {
     return fmt::format("{}", hundredths / 100.0);
   };
@@ -187,9 +185,8 @@ void print_state(const Context& context, const MachineState& machine) {
     context.print("block      {} line {}\n", machine.program.current, machine.program.line);
   }
   context.print("axes      ");
-  for (std::size_t i = 0; i < machine.axes.names.size(); ++i) {
+  for (std::size_t i = 0; i < machine.axes.names.size(); ++i)
     context.print(" {} {}", machine.axes.names[i], machine.axes.positions[i]);
-  }
   context.print("\noverrides  feed {} %, spindle {} %, rapid {} %\n",
                 machine.overrides.feed / 100.0, machine.overrides.spindle / 100.0,
                 machine.overrides.rapid / 100.0);
@@ -280,9 +277,8 @@ struct ControlPutOptions {
 Outcome<ExitCode> run_control_put(const Context& context, const ControlPutOptions& options) {
   const std::string& destination = options.words.back();
   const std::vector<std::string> files(options.words.begin() + 1, options.words.end() - 1);
-  if (files.size() > 1 && !destination.ends_with('\\') && !destination.ends_with('/')) {
+  if (files.size() > 1 && !destination.ends_with('\\') && !destination.ends_with('/'))
     return Failure::of(ExitCode::Usage, "several files need a folder: write {}/", destination);
-  }
   auto control = TRY(connect(options.words.front(), {"FILE"}));
   for (const std::string& file : files) {
     const auto bytes = TRY(read_file(file));

@@ -14,9 +14,8 @@ bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 /// The offset after the closing quote of a quoted cell; npos if it is missing.
 std::size_t skip_quoted(std::string_view text, std::size_t begin) {
   std::size_t close = text.find('"', begin + 1);
-  while (close != std::string_view::npos && text.substr(close + 1).starts_with('"')) {
+  while (close != std::string_view::npos && text.substr(close + 1).starts_with('"'))
     close = text.find('"', close + 2);
-  }
   return close == std::string_view::npos ? close : close + 1;
 }
 

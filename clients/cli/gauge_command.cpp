@@ -197,9 +197,8 @@ std::string record_body(const GaugeOptions& options, const std::string& measured
   body.add(kRowFields[by_drawing ? RowField::Nominal : RowField::Designation].name,
            options.designation);
   body.add(kRowFields[RowField::Measured].name, measured);
-  for (std::size_t i = RowField::Feature; i < RowField::Count; ++i) {
+  for (std::size_t i = RowField::Feature; i < RowField::Count; ++i)
     body.add_given(kRowFields.at(i).name, options.fields.at(i));
-  }
   return body.text();
 }
 
@@ -301,13 +300,11 @@ std::string format_verdict(const JsonValue& document, const Terminal& terminal) 
   text += fmt::format("  {} mm  {} ({}): {}\n", document.text_of("measured_mm"),
                       document.text_of(explicit_limits ? "nominal_mm" : "designation"),
                       limits_text(document), distance_text(document, terminal.micrometre()));
-  if (const std::string_view corrected = document.text_of("corrected_mm"); !corrected.empty()) {
+  if (const std::string_view corrected = document.text_of("corrected_mm"); !corrected.empty())
     text += fmt::format("{} mm at 20 degrees\n", corrected);
-  }
   text += envelope_text(document);
-  if (const std::string_view id = document.text_of("id"); !id.empty()) {
+  if (const std::string_view id = document.text_of("id"); !id.empty())
     text += fmt::format("stored as {}\n", id);
-  }
   return text;
 }
 

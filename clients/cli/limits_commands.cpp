@@ -29,12 +29,10 @@ ToleranceZone zone_of(const JsonValue& limits) {
 std::string clearances(const JsonValue& fit, std::string_view unit) {
   const Length most = parse_length_um(fit.text_of("max_clearance_um")).value();
   const Length least = parse_length_um(fit.text_of("min_clearance_um")).value();
-  if (least >= Length()) {
+  if (least >= Length())
     return fmt::format("clearance {} to {} {}", format_um(least), format_um(most), unit);
-  }
-  if (most <= Length()) {
+  if (most <= Length())
     return fmt::format("interference {} to {} {}", format_um(-most), format_um(-least), unit);
-  }
   return fmt::format("clearance up to {} {unit}, interference up to {} {unit}", format_um(most),
                      format_um(-least), fmt::arg("unit", unit));
 }
@@ -101,9 +99,8 @@ std::string format_standard(const JsonValue& standard, const Terminal& /*termina
     text += '\n';
     for (const auto& [item, numbers] : row.member("limits").members) {
       text += fmt::format("    {:<12}", item);
-      for (const auto& [name, number] : numbers.members) {
+      for (const auto& [name, number] : numbers.members)
         text += fmt::format("  {} {}", name, number.text);
-      }
       text += '\n';
     }
   }

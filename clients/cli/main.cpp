@@ -146,17 +146,15 @@ int run_command_line(int argc, char** argv) {
   add_commands(app, action);
   try {
     app.parse(argc, argv);
-    if (app.got_subcommand("import") && app.count("--retry") == 0) {
+    if (app.got_subcommand("import") && app.count("--retry") == 0)
       common.retry_seconds = kMeasureRetrySeconds;
-    }
     for (int i = 1; i < argc; ++i) {
       if (!is_utf8(argv[i])) return complain({ExitCode::Usage, "an argument is not UTF-8"}, false);
     }
     const auto done = run_action(action, common);
     if (!done) return complain(done.error(), common.json);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       return complain({ExitCode::LocalFile, "standard output cannot be written"}, false);
-    }
     return end_with(*done);
   } catch (const CLI::Success& success) {
     return app.exit(success);
@@ -164,9 +162,8 @@ int run_command_line(int argc, char** argv) {
     return complain({ExitCode::Usage, usage_text(app, error)}, false);
   } catch (const std::exception& defect) {
     // fmt throws if the stream is full.
-    if (std::ferror(stdout) != 0) {
+    if (std::ferror(stdout) != 0)
       return complain({ExitCode::LocalFile, "standard output cannot be written"}, false);
-    }
     return complain({ExitCode::Defect, std::string("internal error: ") + defect.what()}, false);
   }
 }

@@ -19,9 +19,8 @@ std::string summary(const VerdictCounts& counts) {
   std::string text =
       fmt::format("{} rows: {} good, {} rework, {} reject", grouped(counts.sum()),
                   grouped(counts.good), grouped(counts.rework), grouped(counts.reject));
-  if (counts.indeterminate > 0) {
+  if (counts.indeterminate > 0)
     text += fmt::format(", {} indeterminate", grouped(counts.indeterminate));
-  }
   if (counts.unjudged > 0) text += fmt::format(", {} unjudged", grouped(counts.unjudged));
   return text;
 }
@@ -235,9 +234,8 @@ class Upload {
           name_ + (sheet::is_ndjson(options_.input) ? ": the input has no record"
                                                     : ": the input has no row after the header")};
     }
-    if (rows_sent_ == 0) {
+    if (rows_sent_ == 0)
       context_.note(name_ + ": every row was stored before; --again stores them once more");
-    }
     if (!context_.json) context_.print("{}\n", summary(state_.counts));
     return options_.exit_verdict ? worst_verdict(state_.counts) : ExitCode::Good;
   }

@@ -29,9 +29,8 @@ void forget_oldest_states(const std::filesystem::path& folder) {
   std::vector<std::pair<std::filesystem::file_time_type, std::filesystem::path>> states;
   std::error_code ignored;  // another fitgauge may remove it too
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    if (entry.path().extension() == ".state") {
+    if (entry.path().extension() == ".state")
       states.emplace_back(entry.last_write_time(ignored), entry.path());
-    }
   }
   if (states.size() <= kMostStates) return;
   const auto oldest = states.end() - static_cast<std::ptrdiff_t>(kMostStates);

@@ -115,9 +115,8 @@ Outcome<ExitCode> run_nc_ls(const Context& context, const std::string& prefix) {
 Outcome<ExitCode> run_nc_put(const Context& context, const Words& paths) {
   const std::string& destination = paths.back();
   const std::vector<std::string> files(paths.begin(), paths.end() - 1);
-  if (files.size() > 1 && !names_folder(destination)) {
+  if (files.size() > 1 && !names_folder(destination))
     return Failure::of(ExitCode::Usage, "several files need a folder: write {}/", destination);
-  }
   for (const std::string& file : files) {
     const auto bytes = TRY(read_file(file));
     const std::string path =

@@ -21,9 +21,8 @@ ExitCode exit_code_of(const Answer& answer) {
 std::string sentence(const Problem& problem) {
   if (problem.fields.empty()) return problem.detail.empty() ? problem.title : problem.detail;
   std::string text;
-  for (const FieldProblem& field : problem.fields) {
+  for (const FieldProblem& field : problem.fields)
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", field.pointer, field.detail);
-  }
   return text;
 }
 

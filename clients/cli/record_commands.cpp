@@ -16,9 +16,8 @@ std::string record_target(std::string path, const RecordQuery& query,
     path.append(name).append("=").append(percent_encoded(value));
     separator = '&';
   };
-  for (std::size_t i = 0; i < kRecordFilters.size(); ++i) {
+  for (std::size_t i = 0; i < kRecordFilters.size(); ++i)
     add(kRecordFilters.at(i).name, query.filters.at(i));
-  }
   for (const auto& [name, value] : others) add(name, value);
   return path;
 }

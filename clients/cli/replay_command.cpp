@@ -31,9 +31,8 @@ Outcome<ByCycle> read_log(const std::string& file) {
     const auto& [line, why] = reading.unread.front();
     return Failure::of(ExitCode::LocalFile, "{}:{}: {}", file, line, why);
   }
-  if (reading.logs.empty()) {
+  if (reading.logs.empty())
     return Failure{ExitCode::LocalFile, file + ": contains no complete measuring log"};
-  }
   ByCycle logs;
   sort_in(std::move(reading.logs), logs);
   return logs;

@@ -44,9 +44,8 @@ Read reading_again(const std::shared_ptr<InputFile>& file) {
   return [file, read = reading(file),
           is_begun = false](std::span<char> into) mutable -> Result<std::size_t> {
     if (!std::exchange(is_begun, true)) {
-      if (const auto rewound = file->rewind(); !rewound) {
+      if (const auto rewound = file->rewind(); !rewound)
         return Error{ErrorCode::Internal, rewound.error().message};
-      }
     }
     return read(into);
   };
@@ -62,9 +61,8 @@ Outcome<sheet::Words> read_words(std::string_view option, const std::vector<std:
   sheet::Words words;
   for (const std::string& text : texts) {
     const std::size_t equals = text.rfind('=');
-    if (equals == 0 || equals == std::string::npos) {
+    if (equals == 0 || equals == std::string::npos)
       return Failure::of(ExitCode::Usage, "{} must be NAME=TEXT; got '{}'", option, text);
-    }
     words.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
   return words;
@@ -191,9 +189,8 @@ std::uint64_t RowInput::line_of(const Context& context, const MeasureOptions& op
     const auto more = input->fill();
     if (!more || !*more) break;
     const auto& lines = input->state_->lines;
-    if (csv_line <= before + lines.size()) {
+    if (csv_line <= before + lines.size())
       return csv_line > before ? lines[csv_line - before - 1] : lines.front();
-    }
     before += lines.size();
   }
   return csv_line;

@@ -59,9 +59,8 @@ Outcome<std::string> arrays_of(std::string_view text, bool& flat) {
     if (values.empty()) continue;
     flat = flat && values.size() == 1;
     nested += nested.empty() ? "[" : ",[";
-    for (std::size_t i = 0; i < values.size(); ++i) {
+    for (std::size_t i = 0; i < values.size(); ++i)
       nested += fmt::format("{}{}", i == 0 ? "" : ",", json_string(values[i]));
-    }
     nested += ']';
     if (flat) single += fmt::format("{}{}", single.empty() ? "" : ",", json_string(values.front()));
   }
@@ -98,18 +97,16 @@ void print_members(const Context& context, const std::string& name, const JsonVa
   const std::string prefix = name.empty() ? "" : name + ".";
   switch (value.kind) {
     case JsonValue::Kind::Object:
-      for (const auto& [member, inner] : value.members) {
+      for (const auto& [member, inner] : value.members)
         print_members(context, prefix + member, inner);
-      }
       break;
     case JsonValue::Kind::Array:
       if (value.items.size() > kShown) {
         context.print("{} {} items: --json shows them\n", name, value.items.size());
         break;
       }
-      for (std::size_t i = 0; i < value.items.size(); ++i) {
+      for (std::size_t i = 0; i < value.items.size(); ++i)
         print_members(context, prefix + std::to_string(i), value.items[i]);
-      }
       break;
     case JsonValue::Kind::Boolean:
       context.print("{} {}\n", name, value.boolean ? "true" : "false");

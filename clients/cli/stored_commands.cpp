@@ -32,9 +32,8 @@ Outcome<ExitCode> list(const Context& context, const std::string& target, std::s
                        const Line& line) {
   return show(context, context.persist({.target = target}), [&](const JsonValue& document) {
     for (const JsonValue& item : document.member(items).items) context.print("{}\n", line(item));
-    if (const std::string_view next = document.text_of("next"); !next.empty()) {
+    if (const std::string_view next = document.text_of("next"); !next.empty())
       context.note("more: --after {}", next);
-    }
   });
 }
 
@@ -108,9 +107,8 @@ Outcome<ExitCode> run_runs_show(const Context& context, const Words& words) {
                 for (const JsonValue& line : run.member("screen").items)
                   context.print("{}\n", line.text);
                 print_messages(run);
-                for (const JsonValue& file : run.member("files").items) {
+                for (const JsonValue& file : run.member("files").items)
                   context.print("{:>9}  {}\n", file.text_of("size"), file.text_of("path"));
-                }
               });
 }
 

@@ -72,9 +72,8 @@ std::string grouped(std::uint64_t number) {
 
 std::string format_progress(const Progress& progress, const Terminal& terminal) {
   std::string text = progress.name + "  ";
-  if (progress.bytes_in_all) {
+  if (progress.bytes_in_all)
     text += bar_of(progress.bytes, *progress.bytes_in_all, terminal.unicode);
-  }
   text += grouped(progress.rows) + " rows";
   if (progress.seconds > 0) {
     const double rate = static_cast<double>(progress.rows) / progress.seconds;

@@ -87,9 +87,8 @@ std::string_view piece_of(bool upper, bool lower, bool unicode) {
 std::string label_of(const ToleranceZone& zone, std::int64_t line, const Scale& scale,
                      const Terminal& terminal) {
   std::string label;
-  if (scale.upper_line(zone) == line) {
+  if (scale.upper_line(zone) == line)
     label = fmt::format("{} {}", zone.upper_name, signed_um(zone.upper));
-  }
   if (scale.lower_line(zone) == line) {
     if (!label.empty()) label += ", ";
     label += fmt::format("{} {}", zone.lower_name, signed_um(zone.lower));

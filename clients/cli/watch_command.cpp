@@ -46,9 +46,8 @@ class Watch {
         return reader_.feed(piece);
       });
       if (done()) return ExitCode::Good;
-      if (answer && !answer->ok() && !(connected && is_temporary(*answer))) {
+      if (answer && !answer->ok() && !(connected && is_temporary(*answer)))
         return failure_of(*answer, context_.client.url());
-      }
       if (!connected && !answer) return answer.error();
       context_.note(answer ? "the service ended the stream: connecting again"
                            : answer.error().message + "; connecting again");
@@ -61,9 +60,8 @@ class Watch {
   Request request() const {
     Request request{.target = "/v1/events"};
     if (!options_.source.empty()) request.target += "?source=" + percent_encoded(options_.source);
-    if (!reader_.last_id().empty()) {
+    if (!reader_.last_id().empty())
       request.headers.push_back("Last-Event-ID: " + reader_.last_id());
-    }
     return request;
   }
 
@@ -160,9 +158,8 @@ std::string format_event(const Event& event, const Terminal& terminal) {
   const auto document = parse_document(event.data);
   if (!document || event.type == "verdict.reject") return {};
   if (event.type == "measurement.recorded") return record_line(*document, terminal);
-  if (event.type == "run.finished") {
+  if (event.type == "run.finished")
     return joined(*document, {"finished_at", "id", "program", "status", "verdict"}) + '\n';
-  }
   return fmt::format("{}  {}\n", event.type, event.data);
 }
 

@@ -69,15 +69,13 @@ char separator_of(std::string_view header_line) {
 
 Result<CsvReader> CsvReader::open(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  if (const std::size_t at = find_invalid_utf8(text); at != std::string_view::npos) {
+  if (const std::size_t at = find_invalid_utf8(text); at != std::string_view::npos)
     return Error::of(ErrorCode::TextEncoding, "byte {} is not UTF-8", at);
-  }
   CsvReader reader(text, separator_of(text.substr(0, text.find_first_of("\r\n"))));
   TRY(reader.read_record());
   for (const CsvCell& cell : reader.cells_) reader.header_.emplace_back(trim(cell.text));
-  if (reader.header_.size() == 1 && reader.header_.front().empty()) {
+  if (reader.header_.size() == 1 && reader.header_.front().empty())
     return Error{ErrorCode::CsvMalformed, "the header line with the field names is missing"};
-  }
   return reader;
 }
 
@@ -97,9 +95,8 @@ Result<void> CsvReader::read_record() {
   record_line_ = line_;
   cells_.clear();
   for (;;) {
-    if (cells_.size() == kMostCells) {
+    if (cells_.size() == kMostCells)
       return malformed(fmt::format("has more than {} cells", kMostCells));
-    }
     if (rest_.starts_with('"')) {
       TRY(read_quoted());
     } else {

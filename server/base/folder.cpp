@@ -42,9 +42,8 @@ Result<Folder> Folder::open(const std::filesystem::path& path) {
 }
 
 Result<Folder> Folder::sub(const std::string& name) const {
-  if (mkdirat(descriptor_.get(), name.c_str(), 0777) != 0 && errno != EEXIST) {
+  if (mkdirat(descriptor_.get(), name.c_str(), 0777) != 0 && errno != EEXIST)
     return failed("create the folder", name);
-  }
   Descriptor folder(
       openat(descriptor_.get(), name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
   if (!folder.is_open()) return failed("open the folder (links are not followed)", name);
@@ -108,14 +107,12 @@ Result<void> Folder::move(const std::string& name, const Folder& to, const std::
     const std::string free = to.free_name(as);
     const int from_folder = descriptor_.get();
     const int to_folder = to.descriptor_.get();
-    if (renameat2(from_folder, name.c_str(), to_folder, free.c_str(), RENAME_NOREPLACE) == 0) {
+    if (renameat2(from_folder, name.c_str(), to_folder, free.c_str(), RENAME_NOREPLACE) == 0)
       return {};
-    }
     if (errno == EEXIST) continue;
     // Some file systems of a network know no flags.
-    if (errno == EINVAL && renameat(from_folder, name.c_str(), to_folder, free.c_str()) == 0) {
+    if (errno == EINVAL && renameat(from_folder, name.c_str(), to_folder, free.c_str()) == 0)
       return {};
-    }
     return Error::of(ErrorCode::StorageUnavailable, "{} cannot be moved to {}: {}", name,
                      (to.path_ / free).string(), std::strerror(errno));
   }

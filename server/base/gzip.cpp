@@ -84,9 +84,8 @@ Result<std::string> GzipReader::next() {
   const Gunzip::Step step = gunzip_.put(std::string_view(packed_).substr(at_), piece);
   at_ += step.consumed;
   piece.resize(step.produced);
-  if (step.failed || (piece.size() < kPiece && !gunzip_.is_complete())) {
+  if (step.failed || (piece.size() < kPiece && !gunzip_.is_complete()))
     return Error{ErrorCode::StorageCorrupt, "a packed text is damaged"};
-  }
   return piece;
 }
 

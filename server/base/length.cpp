@@ -159,9 +159,8 @@ Result<std::int64_t> parse_decimal(std::string_view text, const DecimalSyntax& s
       }
     }
   }
-  if (magnitude > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) {
+  if (magnitude > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
     return out_of_range();
-  }
   const auto value = static_cast<std::int64_t>(magnitude);
   return parts.negative ? -value : value;
 }
@@ -199,9 +198,8 @@ std::string format_decimal(std::int64_t value, int scale) {
 
 Result<Length> Length::nearest_mm(double millimetres) {
   constexpr double kLargest = 1e12;
-  if (!std::isfinite(millimetres) || std::abs(millimetres) > kLargest) {
+  if (!std::isfinite(millimetres) || std::abs(millimetres) > kLargest)
     return Error{ErrorCode::LengthOutOfRange, "a computed length is not finite or beyond 1e12 mm"};
-  }
   return nanometres(std::llround(millimetres * 1e6));
 }
 

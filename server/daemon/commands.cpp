@@ -63,9 +63,7 @@ Result<int> run_verify(const Config& config, const std::vector<std::string>& che
   std::map<std::string, std::string> notes;
   for (const std::string& file : checkpoints) {
     auto note = read_regular(file);
-    if (!note) {
-      return config_error("cannot read the checkpoint {}: {}", file, note.error().message);
-    }
+    if (!note) return config_error("cannot read the checkpoint {}: {}", file, note.error().message);
     notes[file] = *std::move(note);
   }
   const auto app = TRY(attach(config));
@@ -120,9 +118,8 @@ Result<int> run_log_key(const Config& config) {
 Result<int> run_key_create(const Config& config, const std::string& name, const std::string& role,
                            const std::optional<std::string>& expires) {
   const auto known = app::role_from_word(role);
-  if (!known) {
+  if (!known)
     return config_error("role must be one of: viewer, operator, admin, station; got '{}'", role);
-  }
   std::optional<Timestamp> end;
   if (expires) {
     const auto time = parse_rfc3339(*expires);
@@ -180,9 +177,8 @@ Result<void> healthcheck(const Config& config) {
   call.set(CURLOPT_WRITEFUNCTION, &drop_body);
   const CURLcode code = call.perform();
   if (line.starts_with("HTTP/1.1 200")) return {};
-  if (code == CURLE_COULDNT_CONNECT || code == CURLE_SSL_CONNECT_ERROR) {
+  if (code == CURLE_COULDNT_CONNECT || code == CURLE_SSL_CONNECT_ERROR)
     return failed("nothing listens on " + address);
-  }
   return failed(line.empty() ? "no answer from " + address
                              : fmt::format("{} answered '{}'", address, line));
 }

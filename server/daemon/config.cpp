@@ -32,9 +32,8 @@ std::vector<std::string> split_list(std::string_view text) {
   std::vector<std::string> items;
   while (!text.empty()) {
     const std::size_t comma = std::min(text.find(','), text.size());
-    if (const std::string_view item = trim(text.substr(0, comma)); !item.empty()) {
+    if (const std::string_view item = trim(text.substr(0, comma)); !item.empty())
       items.emplace_back(item);
-    }
     text.remove_prefix(std::min(comma + 1, text.size()));
   }
   return items;
@@ -58,9 +57,8 @@ Result<std::string> text_of(const Setting& setting, const toml::node& node) {
   }
   if (const auto value = node.value_exact<std::string>()) return *value;
   const toml::array* items = node.as_array();
-  if (setting.texts == nullptr || items == nullptr) {
+  if (setting.texts == nullptr || items == nullptr)
     return config_error("{} must be a string", toml_key(setting));
-  }
   std::vector<std::string> texts;
   for (const toml::node& item : *items) {
     const auto text = item.value_exact<std::string>();
@@ -212,9 +210,8 @@ std::string default_text(const Setting& setting) {
 }
 
 std::string help_text(const Setting& setting) {
-  if (setting.integer != nullptr) {
+  if (setting.integer != nullptr)
     return fmt::format("{} ({} to {})", setting.help, setting.least, setting.most);
-  }
   if (setting.words.empty()) return std::string(setting.help);
   return fmt::format("{} ({})", setting.help, fmt::join(setting.words, ", "));
 }
@@ -239,9 +236,8 @@ Result<void> assign(const Setting& setting, std::string_view text, Config& confi
     }
     config.*setting.integer = *value;
   } else if (setting.flag != nullptr) {
-    if (text != "true" && text != "false") {
+    if (text != "true" && text != "false")
       return config_error("{} must be true or false; got '{}'", setting.name, text);
-    }
     config.*setting.flag = text == "true";
   } else if (setting.texts != nullptr) {
     config.*setting.texts = split_list(text);
@@ -268,14 +264,12 @@ Result<void> read_toml(const std::string& path, Config& config) {
       return config_error("{}:{}: {}", path, key.source().begin.line, message);
     };
     const Setting* setting = find(key.str(), toml_key);
-    if (setting == nullptr) {
+    if (setting == nullptr)
       return place(fmt::format("unknown key '{}'; known keys: {}", key.str(), known(toml_key)));
-    }
     const auto text = text_of(*setting, node);
     if (!text) return place(text.error().message);
-    if (const auto assigned = assign(*setting, *text, config); !assigned) {
+    if (const auto assigned = assign(*setting, *text, config); !assigned)
       return place(assigned.error().message);
-    }
   }
   return {};
 }
@@ -315,12 +309,10 @@ Result<void> check(const Config& config) {
           origin);
     }
   }
-  if (config.tls_cert.empty() != config.tls_key.empty()) {
+  if (config.tls_cert.empty() != config.tls_key.empty())
     return config_error("tls-cert and tls-key belong together: give both or neither");
-  }
-  if (!config.tls_client_ca.empty() && config.tls_cert.empty()) {
+  if (!config.tls_client_ca.empty() && config.tls_cert.empty())
     return config_error("tls-client-ca needs tls-cert and tls-key");
-  }
   TRY(check_database(config));
   TRY(certificate::read_letterhead(config.certificate_address, config.certificate_logo));
   return check_forwarding(config);

@@ -27,9 +27,8 @@ JsonValue json_of(const toml::node& node) {
   JsonValue value;
   if (const toml::table* const table = node.as_table()) {
     value.kind = JsonValue::Kind::Object;
-    for (const auto& [key, member] : *table) {
+    for (const auto& [key, member] : *table)
       value.members.emplace_back(std::string(key.str()), json_of(member));
-    }
   } else if (const toml::array* const array = node.as_array()) {
     value.kind = JsonValue::Kind::Array;
     for (const toml::node& item : *array) value.items.push_back(json_of(item));
@@ -61,9 +60,8 @@ class ConnectionReader {
   Result<Definition> read() const {
     JsonValue body = json_of(table_);
     const JsonValue* const name = body.find("name");
-    if (name == nullptr || !name->is(JsonValue::Kind::String)) {
+    if (name == nullptr || !name->is(JsonValue::Kind::String))
       return error(table_.get("name"), "name of a connection must be a text");
-    }
     std::string named = name->text;
     std::erase_if(body.members, [](const auto& member) { return member.first == "name"; });
     TRY(load_patterns(body));
@@ -97,9 +95,8 @@ class ConnectionReader {
     for (auto& [key, list] : body.members) {
       if (key != "patterns" || !list.is(JsonValue::Kind::Array)) continue;
       for (JsonValue& item : list.items) {
-        if (!item.is(JsonValue::Kind::String)) {
+        if (!item.is(JsonValue::Kind::String))
           return error(table_.get("patterns"), "patterns must be a list of texts");
-        }
         const auto path = std::filesystem::path(file_).parent_path() / item.text;
         auto content = read_regular(path);
         if (!content) {
@@ -159,9 +156,7 @@ Result<std::vector<Definition>> read_connections(const std::string& path) {
     return config_error("{}:{}: {}", path, line, what);
   };
   const auto text = read_regular(path);
-  if (!text) {
-    return config_error("cannot read {}: {}", path, text.error().message);
-  }
+  if (!text) return config_error("cannot read {}: {}", path, text.error().message);
   toml::table file;
   try {
     file = toml::parse(*text, path);
@@ -171,9 +166,8 @@ Result<std::vector<Definition>> read_connections(const std::string& path) {
   std::set<std::string> names;
   for (const auto& [key, node] : file) {
     const toml::array* const list = node.as_array();
-    if (key.str() != "connection" || list == nullptr) {
+    if (key.str() != "connection" || list == nullptr)
       return invalid(key.source().begin.line, "the file must contain only [[connection]]");
-    }
     for (const toml::node& item : *list) {
       const toml::table* const table = item.as_table();
       if (table == nullptr) return invalid(item.source().begin.line, "write [[connection]]");
@@ -185,9 +179,8 @@ Result<std::vector<Definition>> read_connections(const std::string& path) {
       definitions.push_back(std::move(definition));
     }
   }
-  if (definitions.size() > connections::kMostConnections) {
+  if (definitions.size() > connections::kMostConnections)
     return invalid(1, fmt::format("more than {} connections", connections::kMostConnections));
-  }
   return definitions;
 }
 
@@ -235,9 +228,8 @@ Result<void> check_forwarding(const Config& config) {
   }
   for (const std::string& file : {config.forward_key_file, config.forward_ca}) {
     if (file.empty()) continue;
-    if (const auto opened = open_regular(file); !opened) {
+    if (const auto opened = open_regular(file); !opened)
       return config_error("cannot read {}: {}", file, opened.error().message);
-    }
   }
   return {};
 }

@@ -26,9 +26,8 @@ constexpr std::size_t kMostMethod = 32;
 template <unsigned base>
 constexpr auto kDigitPairs = [] {
   std::array<std::array<char, 2>, base * base> pairs{};
-  for (unsigned i = 0; i < pairs.size(); ++i) {
+  for (unsigned i = 0; i < pairs.size(); ++i)
     pairs[i] = {"0123456789abcdef"[i / base], "0123456789abcdef"[i % base]};
-  }
   return pairs;
 }();
 

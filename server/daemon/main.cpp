@@ -28,9 +28,8 @@ void print(std::string_view event, const std::string& detail) {
 /// `fitgauged forward --all`: forwards the whole log of the folder to the centre and ends; 1 if the
 /// centre refuses it, or cannot be reached for a minute. A repeat continues at the end.
 Result<int> run_forward_all(const Config& config) {
-  if (config.forward_to.empty()) {
+  if (config.forward_to.empty())
     return config_error("forward --all needs forward-to, the centre's address");
-  }
   const SystemClock clock;
   app::ApplicationOptions options = application_options(config);
   options.log_told = print;
@@ -87,9 +86,8 @@ int complain(const Error& error) {
 
 std::vector<std::string> environment() {
   std::vector<std::string> variables;
-  for (char** variable = environ; *variable != nullptr; ++variable) {
+  for (char** variable = environ; *variable != nullptr; ++variable)
     variables.emplace_back(*variable);
-  }
   return variables;
 }
 
@@ -126,9 +124,8 @@ void add_options(CLI::App& app, Arguments& arguments) {
       continue;
     }
     std::string help = help_text(setting);
-    if (const auto value = default_text(setting); !value.empty()) {
+    if (const auto value = default_text(setting); !value.empty())
       help += fmt::format(" (default: {})", value);
-    }
     auto* option = app.add_option("--" + std::string(setting.name), values, help)
                        ->type_name(std::string(setting.kind));
     if (setting.texts == nullptr) option->expected(1);

@@ -43,12 +43,10 @@ fs::path nearest_existing(fs::path folder) {
 /// Whether files can be made in `folder`. `what` names the setting.
 Result<void> check_folder(const std::string& what, const fs::path& folder) {
   std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) {
+  if (!fs::is_directory(folder, ignored))
     return config_error("{}: {} is not a folder", what, folder.string());
-  }
-  if (access(folder.c_str(), W_OK | X_OK) != 0) {
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
     return config_error("{}: cannot write to {}: {}", what, folder.string(), std::strerror(errno));
-  }
   return {};
 }
 
@@ -56,9 +54,8 @@ Result<void> check_folder(const std::string& what, const fs::path& folder) {
 Result<void> check_file(const std::string& what, const fs::path& file) {
   std::error_code ignored;
   if (file.empty()) return {};
-  if (fs::is_directory(file, ignored)) {
+  if (fs::is_directory(file, ignored))
     return config_error("{}: {} is a folder", what, file.string());
-  }
   return check_folder(what, file.has_parent_path() ? file.parent_path() : fs::path("."));
 }
 
@@ -80,9 +77,7 @@ Result<void> take_key_of_file(const std::string& file, const std::vector<store::
                 fmt::format("the key in {} was revoked: put a new key into the file", file));
     return {};
   }
-  if (!taken) {
-    return config_error("admin-key-file {}: {}", file, taken.error().message);
-  }
+  if (!taken) return config_error("admin-key-file {}: {}", file, taken.error().message);
   if (replaces) {
     log_warning("admin_key_replaced",
                 fmt::format("the key in {} is valid now, and the old key is revoked", file));
@@ -214,9 +209,8 @@ Result<void> provide_admin_key(const Config& config, bool needs_one, app::KeySer
   if (has_one || !needs_one) return {};
   const std::string token = app::KeyService::new_token();
   const std::string file = admin_key_out(config);
-  if (const auto written = replace_file(file, token + '\n', 0600); !written) {
+  if (const auto written = replace_file(file, token + '\n', 0600); !written)
     return config_error("admin-key-out: cannot write {}: {}", file, written.error().message);
-  }
   if (const auto created = keys.create(kName, app::Role::Admin, token); !created) {
     ::unlink(file.c_str());
     return created.error();
@@ -256,9 +250,8 @@ Result<std::unique_ptr<app::Application>> open_or_wait(const app::ApplicationOpt
   if (!is_away(opened)) return opened;
   log_warning("database_awaited", opened.error().message);
   const auto waiting = TRY(start_waiting_server(server, opened.error().message));
-  for (std::size_t i = 0; i < server.listen.size(); ++i) {
+  for (std::size_t i = 0; i < server.listen.size(); ++i)
     server.listen[i].port = waiting->ports().at(i);
-  }
   if (!port_file.empty()) TRY(write_port_file(port_file, server.listen.front().port));
   do {
     if (is_to_end_after_a_second()) return std::unique_ptr<app::Application>();

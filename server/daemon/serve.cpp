@@ -32,9 +32,8 @@ http::ServerOptions server_options(const Config& config,
                                    std::vector<http::ListenAddress> addresses) {
   http::ServerOptions options;
   options.listen = std::move(addresses);
-  if (!config.tls_client_ca.empty()) {
+  if (!config.tls_client_ca.empty())
     options.listen.push_back({.host = "127.0.0.1", .port = 0, .health_only = true});
-  }
   options.io_threads = static_cast<unsigned>(config.io_threads);
   // Clients beyond this number get 503 instead of no answer.
   options.max_connections = static_cast<std::size_t>(allow_connections(config.max_connections));
@@ -140,9 +139,8 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
     const bool is_news = event == "log_head" || event == "purged" || event.starts_with("key_");
     is_news ? log_info(event, detail) : log_warning(event, detail);
   };
-  if (!config.forward_to.empty()) {
+  if (!config.forward_to.empty())
     options.ask_centre = [&config](std::string_view digits) { return ask_centre(config, digits); };
-  }
   http::ServerOptions listening = server_options(config, addresses);
   const auto most_clients = static_cast<std::int64_t>(listening.max_connections);
   auto opened = TRY(open_or_wait(options, clock, listening, port_file));
@@ -151,9 +149,8 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
   // A page that cannot be read shows in the readiness, and is no reason not to start.
   const auto newest = app.newest_measurement();
   if (newest && *newest) clock.begin_after(**newest);
-  for (const Error& finding : app.tables().state()->findings) {
+  for (const Error& finding : app.tables().state()->findings)
     log_error("tables_inconsistent", finding.message);
-  }
   // A damaged row does not stop a start: every write is refused, so that no value lacks its gauge.
   const auto fails = [](const Result<void>& done) {
     return !done && done.error().code != ErrorCode::StorageCorrupt;
@@ -162,9 +159,8 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
   const auto provided = provide_admin_key(config, mode != api::AuthMode::Open, app.keys());
   if (fails(provided)) return provided.error();
 
-  if (const auto opened_runs = app.runs().open(api::run_format()); fails(opened_runs)) {
+  if (const auto opened_runs = app.runs().open(api::run_format()); fails(opened_runs))
     return opened_runs.error();
-  }
   api::GaugesInUse gauges(app.documents());
   if (const auto loaded = gauges.load(); fails(loaded)) return loaded.error();
   auto connecting = TRY(start_connections(config, app, clock, gauges));
@@ -221,9 +217,8 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
   auto control = TRY(start_control(config, services));
   auto adapter = TRY(start_shdr(config, services));
   metrics.add([&server](api::Exposition& out) { write_server_metrics(server, out); });
-  if (!config.tls_client_ca.empty()) {
+  if (!config.tls_client_ca.empty())
     TRY(write_port_file(health_port_file(config), server.ports().back()));
-  }
   if (!port_file.empty()) TRY(write_port_file(port_file, server.ports().front()));
   if (most_clients < config.max_connections) {
     log_warning("connections_limited", fmt::format("{} of {}: raise the hard limit of open files",

@@ -98,9 +98,8 @@ void write_application_metrics(app::Application& app, api::Exposition& out) {
   out.gauge("fitgauge_runs_active", "NC programs that wait or run");
   for (const auto state : {app::RunState::Queued, app::RunState::Running}) sample(state);
   out.counter("fitgauge_runs_total", "NC programs that ended, by status");
-  for (auto i = static_cast<std::size_t>(app::RunState::Completed); i < app::kRunStates; ++i) {
+  for (auto i = static_cast<std::size_t>(app::RunState::Completed); i < app::kRunStates; ++i)
     sample(static_cast<app::RunState>(i));
-  }
 }
 
 void write_clock_metrics(const Clock& clock, const Clock& machine, api::Exposition& out) {
@@ -127,9 +126,8 @@ void write_storage_metrics(const app::Application& app, const fs::path& folder,
   struct statvfs space {};
   const bool has_files = !app.is_on_server() && statvfs(folder.c_str(), &space) == 0;
   out.gauge("fitgauge_storage_free_bytes", "Free space where the database lies");
-  if (has_files) {
+  if (has_files)
     out.sample(static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize));
-  }
   out.gauge("fitgauge_wal_pages", "Pages in the write-ahead log after the last commit");
   if (has_files) out.sample(database.writer().counters().log_pages);
   out.gauge("fitgauge_database_bytes", "Size of the database");
@@ -142,9 +140,8 @@ void write_storage_metrics(const app::Application& app, const fs::path& folder,
 void write_connection_metrics(const std::vector<connections::ConnectionState>& connections,
                               const Clock& clock, api::Exposition& out) {
   const auto each = [&](const auto& value_of) {
-    for (const connections::ConnectionState& connection : connections) {
+    for (const connections::ConnectionState& connection : connections)
       out.sample(value_of(connection), {{"connection", connection.name}});
-    }
   };
   const auto count = [&](std::uint64_t connections::ConnectionState::*member) {
     each([member](const auto& connection) { return static_cast<double>(connection.*member); });

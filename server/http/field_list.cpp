@@ -100,9 +100,8 @@ std::vector<std::string_view> list_items(std::string_view value) {
 NameValue split_parameter(std::string_view part) {
   const std::size_t equals = std::min(part.find('='), part.size());
   NameValue out{trim(part.substr(0, equals)), trim(part.substr(std::min(equals + 1, part.size())))};
-  if (out.value.size() >= 2 && out.value.front() == '"' && out.value.back() == '"') {
+  if (out.value.size() >= 2 && out.value.front() == '"' && out.value.back() == '"')
     out.value = out.value.substr(1, out.value.size() - 2);
-  }
   return out;
 }
 

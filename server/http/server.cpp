@@ -44,9 +44,8 @@ class Server::Impl {
     threads_.front()->post([this, first = Place(shared_.connections)] {
       for (const auto& listener : listeners_) listener->close();
       // Deals the sockets that are already accepted: later posts follow them.
-      for (const auto& thread : threads_) {
+      for (const auto& thread : threads_)
         thread->post([&each = *thread, place = Place(shared_.connections)] { each.drain(); });
-      }
     });
     shared_.connections.wait_until_empty(shared_.options.drain_timeout);
     for (const auto& thread : threads_) thread->join();

@@ -57,9 +57,8 @@ std::string measured_text(const app::Measurement& m) {
   if (!m.corrected) return mm_text(m.measured);
   std::string text = fmt::format("{} (read {})", mm_text(*m.corrected), mm_text(m.measured));
   text += body_text(m.temperature, m.part_expansion, m.part_material);
-  if (m.scale_expansion || m.scale_material) {
+  if (m.scale_expansion || m.scale_material)
     text += "; scale" + body_text(m.scale_temperature, m.scale_expansion, m.scale_material);
-  }
   if (m.added_uncertainty) {
     text += fmt::format(", adds u {} \u00b5m",
                         format_decimal(*m.added_uncertainty, app::kPicometreDecimals));
@@ -327,9 +326,8 @@ std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoi
   }
   if (!order_.company.empty()) paper.facts.push_back(order_.company);
   if (!order_.customer.empty()) paper.facts.push_back("Customer: " + order_.customer);
-  for (const auto& [name, value] : order_.of) {
+  for (const auto& [name, value] : order_.of)
     paper.facts.push_back(fmt::format("{}: {}", name == "order" ? "Order" : "Part", value));
-  }
   for (const auto& [words, number] : rules_)
     paper.statements[number - 1] = fmt::format("R{}: {}", number, words);
   paper.statements.emplace_back(

@@ -19,9 +19,8 @@ Result<CertificateOrder> order_of(const Request& request) {
   for (const std::string_view name : {"order", "part_id"}) {
     if (const auto value = request.text(name)) order.of.emplace_back(name, *value);
   }
-  if (order.of.empty()) {
+  if (order.of.empty())
     return Error{ErrorCode::QueryMissing, "give order, part_id or both", "order"};
-  }
   order.title = request.text("title").value_or("Inspection report");
   order.company = request.text("company").value_or("");
   order.customer = request.text("customer").value_or("");

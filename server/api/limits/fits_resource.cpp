@@ -149,9 +149,8 @@ void write_statistical(JsonWriter& json, const iso286::Fit& fit, const WriteStor
 
 void write_side(JsonWriter& json, std::string_view name, const iso286::LimitsOfSize& limits,
                 std::string_view class_name, const ToleranceTables& tables) {
-  if (!standards::is_bearing_class(class_name)) {
+  if (!standards::is_bearing_class(class_name))
     return write_body(json.key(name), limits_answer(limits, tables));
-  }
   const Length nominal = limits.nominal_size.length();
   write_body(json.key(name),
              limits_answer(standards::bearing_limits(nominal, class_name, limits.feature).value()));
@@ -244,9 +243,8 @@ http::AsyncHandler answer_fit(const Routes& add, Designation designation_of) {
       });
   return [&services = add.services, designation_of, from_tables = std::move(from_tables)](
              const Request& request, Responder responder) {
-    if (request.query().empty() || asks_for_revision_alone(request)) {
+    if (request.query().empty() || asks_for_revision_alone(request))
       return from_tables(request, std::move(responder));
-    }
     const auto shared = share(std::move(responder));
     tables_of(services.tables, request,
               [&services, &request, designation_of,
@@ -289,9 +287,8 @@ Result<Response> search_fits(const Request& request, const ToleranceTables& tabl
   const auto size = TRY(iso286::NominalSize::make(*request.length("nominal_mm")));
   const metrology::ClearanceBounds bounds{.least = *request.length("min_clearance_um"),
                                           .most = *request.length("max_clearance_um")};
-  if (bounds.least > bounds.most) {
+  if (bounds.least > bounds.most)
     return Error{ErrorCode::QueryInvalid, "min_clearance_um is above max_clearance_um"};
-  }
   constexpr std::int64_t kUsual = 100;
   const auto limit = static_cast<std::size_t>(request.integer("limit").value_or(kUsual));
   const auto found = metrology::find_fits(tables, size, bounds);

@@ -28,9 +28,8 @@ Result<Response> limits_of_designation(const Request& request, const ToleranceTa
 }
 
 Result<Response> limits_of_query(const Request& request, const ToleranceTables& tables) {
-  if (const auto name = *request.text("tolerance_class"); standards::is_class(name)) {
+  if (const auto name = *request.text("tolerance_class"); standards::is_class(name))
     return limits_response(standards::limits_of(*request.length("nominal_mm"), name));
-  }
   const auto size = TRY(iso286::NominalSize::make(*request.length("nominal_mm")));
   return limits_response(size, *request.text("tolerance_class"), tables);
 }

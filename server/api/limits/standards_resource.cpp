@@ -94,9 +94,8 @@ Result<Response> rows(const Request& request, const iso286::ToleranceTables& tab
   const Standard* standard = standards::find(name);
   if (standard == nullptr) {
     std::string known;
-    for (const Standard& other : standards::all()) {
+    for (const Standard& other : standards::all())
       known += fmt::format("{}{}", known.empty() ? "" : ", ", other.name);
-    }
     return Error::of(ErrorCode::NotFound, "unknown standard '{}'; known standards: {}",
                      first_characters(name, 40), known);
   }

@@ -75,9 +75,8 @@ Result<Limits> limits_of(const Request& request, const iso286::ToleranceTables& 
   if (standards::is_designation(text)) {
     auto limits = standards::limits_of(text);
     if (!limits) return limits.error();
-    if (const auto feature = request.text("feature"); feature && limits->feature_is_open) {
+    if (const auto feature = request.text("feature"); feature && limits->feature_is_open)
       limits->feature = *iso286::feature_from_word(*feature);
-    }
     const gauging::Quantity quantity = app::quantity_of(*limits);
     const bool is_distance = quantity == gauging::Quantity::Distance;
     return Limits{.answer = limits_answer(*limits),
@@ -141,9 +140,8 @@ Result<Response> verdict(const Request& request, const iso286::ToleranceTables& 
   const auto result = gauging::gauge({limits.quantity, limits.answer.feature, is_inside},
                                      limits.of.upper, limits.of.lower, measured.decisive(), rule);
   std::vector<Warning> warnings;
-  for (const auto& [name, reason] : unused) {
+  for (const auto& [name, reason] : unused)
     warnings.push_back({"query.unused", fmt::format("{} changes nothing {}", name, reason)});
-  }
   warn_of_no_acceptance(rule, limits.of.upper - limits.of.lower, warnings);
   return tagged_json(
       json_object([&](JsonWriter& json) {
@@ -212,9 +210,8 @@ void add_verdicts_routes(Routes& add) {
                   "Probability of conformance, at least 0.5 (default: 0.95)"),
             revision_parameter()},
        .outcomes = {{.meaning = "The verdict", .schema = "Verdict"}}});
-  for (const app::MeasurementField& field : app::kThermalFields) {
+  for (const app::MeasurementField& field : app::kThermalFields)
     add.all.back().parameters.push_back(parameter_of(field));
-  }
 }
 
 }  // namespace fitgauge::api

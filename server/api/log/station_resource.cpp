@@ -55,9 +55,8 @@ void put_batch(const Services& services, const Request& request, Responder respo
             TRY(read_batch(*request.text("origin"), *request.integer("from"), request.body()));
         const auto answer = services.intake.take(batch->batch);
         // At the station, an error with this name is 503; here it is a conflict.
-        if (!answer && answer.error().code == ErrorCode::LogForked) {
+        if (!answer && answer.error().code == ErrorCode::LogForked)
           return problem(answer.error(), kConflict, request);
-        }
         if (!answer) return answer.error();
         return response_of(request, *answer, batch->batch.origin);
       },

@@ -64,20 +64,17 @@ void take_over_limits(MeasurementRowReader& reader, const JsonValue& body,
   if (!names_any(body, kLimitsFields)) return reader.take_limits(original);
   if (body.find("designation") != nullptr) return;
   if (original.has_nominal) offer(reader, "nominal_mm", format_mm(original.nominal_size));
-  if (!original.class_name && original.quantity) {
+  if (!original.class_name && original.quantity)
     offer(reader, "quantity", word(*original.quantity));
-  }
   if (body.find("tolerance_class") != nullptr) return;
   const bool by_drawing = names_any(body, std::span(kLimitsFields).last(3));
   if (!by_drawing && original.class_name) {
-    if (standards::is_class(*original.class_name) && original.has_feature()) {
+    if (standards::is_class(*original.class_name) && original.has_feature())
       offer(reader, "feature", word(original.feature));
-    }
     return offer(reader, "tolerance_class", original.class_name);
   }
-  if (original.has_feature() && original.is_judged() && !is_without_feature(body)) {
+  if (original.has_feature() && original.is_judged() && !is_without_feature(body))
     offer(reader, "feature", word(original.feature));
-  }
   if (original.has_upper_limit()) offer(reader, "upper_um", format_um(original.deviations.upper));
   if (original.has_lower_limit()) offer(reader, "lower_um", format_um(original.deviations.lower));
 }
@@ -104,18 +101,15 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
   if (original.is_judged()) offer(reader, "rule", word(original.rule.kind()));
   // The gauge's data is unchanged, unless another gauge or time is given.
   if (!names_any(body, kGaugeFields)) reader.take_gauge(original);
-  if (original.standard_uncertainty && !original.uncertainty_budget) {
+  if (original.standard_uncertainty && !original.uncertainty_budget)
     offer(reader, "uncertainty_um", format_um(*original.standard_uncertainty));
-  }
   const JsonValue* rule = body.find("rule");
   const std::string_view decides = rule == nullptr ? word(original.rule.kind()) : rule->text;
-  if (original.coverage_factor && decides != word(gauging::DecisionRule::Kind::Conformance)) {
+  if (original.coverage_factor && decides != word(gauging::DecisionRule::Kind::Conformance))
     offer(reader, "coverage_factor", format(*original.coverage_factor));
-  }
   const bool conforms = decides == word(original.rule.kind());
-  if (original.conformance && conforms) {
+  if (original.conformance && conforms)
     offer(reader, "probability", format(original.rule.probability()));
-  }
 }
 
 std::optional<std::string_view> read_reason(const JsonValue& body, FieldErrors& errors) {

@@ -24,9 +24,8 @@ struct Download {
 Result<aqdef::DfqOptions> options_of(const Request& request, std::string_view media_type) {
   aqdef::DfqOptions options;
   if (const auto name = request.text("time_zone")) {
-    if (media_type == kQifType) {
+    if (media_type == kQifType)
       return Error{ErrorCode::QueryInvalid, "time_zone is for format=dfq and xlsx", "time_zone"};
-    }
     auto zone = sheet::TimeZone::load(*name);
     if (!zone) return Error{ErrorCode::QueryInvalid, zone.error().message, "time_zone"};
     options.zone = *std::move(zone);
@@ -36,13 +35,11 @@ Result<aqdef::DfqOptions> options_of(const Request& request, std::string_view me
         std::tuple("part_description", aqdef::k::kPartDescription, &options.part_description)}) {
     const auto text = request.text(name);
     if (!text) continue;
-    if (media_type != kDfqType) {
+    if (media_type != kDfqType)
       return Error{ErrorCode::QueryInvalid, fmt::format("{} is for format=dfq", name), name};
-    }
     *into = *text;
-    if (const auto checked = aqdef::check_text(field, *text); !checked) {
+    if (const auto checked = aqdef::check_text(field, *text); !checked)
       return Error{ErrorCode::QueryInvalid, checked.error().message, name};
-    }
   }
   return options;
 }

@@ -142,13 +142,11 @@ std::vector<std::pair<std::string_view, std::string>> other_fields(const app::Me
   }
   if (m.corrected) {  // the value and its uncertainty are those of the size at 20 degrees
     fields.emplace_back("measured_mm", format_mm(m.measured));
-    if (m.standard_uncertainty) {
+    if (m.standard_uncertainty)
       fields.emplace_back("uncertainty_um", format_um(*m.standard_uncertainty));
-    }
   }
-  if (m.rule.kind() != gauging::DecisionRule::Kind::Simple) {
+  if (m.rule.kind() != gauging::DecisionRule::Kind::Simple)
     fields.emplace_back("rule", word(m.rule.kind()));
-  }
   if (m.coverage_factor) fields.emplace_back("coverage_factor", format(*m.coverage_factor));
   if (m.conformance) fields.emplace_back("probability", format(m.rule.probability()));
   for (const bool is_text : {false, true}) {
@@ -186,9 +184,8 @@ Result<std::unique_ptr<MeasurementFile>> make_xlsx_file(std::optional<sheet::Tim
 }
 
 Result<void> add_to_dfq(aqdef::DfqWriter& writer, const app::Measurement& m) {
-  if (m.source != app::Source::Gauge) {
+  if (m.source != app::Source::Gauge)
     return Error{ErrorCode::FieldInvalid, "it is simulated, which a DFQ cannot express"};
-  }
   const std::string rule = rule_of(m);
   aqdef::OutgoingValue value{.origin = m.origin, .number = m.id, .measured_at = m.measured_at};
   value.measured = m.decisive();
@@ -197,9 +194,8 @@ Result<void> add_to_dfq(aqdef::DfqWriter& writer, const app::Measurement& m) {
   if (m.has_lower_limit()) value.limits.lower = m.lower_limit();
   value.class_name = table_class_of(m);
   if (m.has_feature()) value.feature = word(m.feature);
-  if (m.quantity && (m.quantity != gauging::Quantity::Diameter || !m.is_judged())) {
+  if (m.quantity && (m.quantity != gauging::Quantity::Diameter || !m.is_judged()))
     value.quantity = word(*m.quantity);
-  }
   value.rule = rule;
   value.part_id = m.part_id.value_or("");
   value.characteristic = m.characteristic.value_or("");
@@ -215,9 +211,8 @@ Result<void> add_to_dfq(aqdef::DfqWriter& writer, const app::Measurement& m) {
 }
 
 Result<void> add_to_qif(qif::QifWriter& writer, const app::Measurement& m) {
-  if (m.source != app::Source::Gauge) {
+  if (m.source != app::Source::Gauge)
     return Error{ErrorCode::FieldInvalid, "it is simulated, not the result of an inspection"};
-  }
   qif::OutgoingValue value{.origin = m.origin, .number = m.id, .measured_at = m.measured_at};
   value.measured = m.decisive();
   if (m.has_nominal) value.nominal = m.nominal_size;

@@ -83,9 +83,8 @@ Result<Cursor> cursor_of(const Services& services, const Request& request) {
     const std::size_t dash = std::min(text->find('-', point), text->size());
     const auto after = services.measurements.parse_id(
         std::string(text->substr(0, point)).append(text->substr(dash)));
-    if (as_of && as_of->origin == 0 && after) {
+    if (as_of && as_of->origin == 0 && after)
       return Cursor{.after = after->number, .as_of = as_of->number, .record = {}};
-    }
   }
   return Error{ErrorCode::CursorInvalid, "after must be the `next` of an earlier page"};
 }
@@ -169,9 +168,8 @@ void answer_page(const Services& services, const Request& request, Responder& re
 
 std::vector<Parameter> measurement_filter_parameters(std::string_view prefix) {
   std::vector<Parameter> parameters;
-  for (const std::string_view name : app::kTextFilters) {
+  for (const std::string_view name : app::kTextFilters)
     parameters.push_back(query(std::string(name), fmt::format("Exactly this {}", name)));
-  }
   parameters =
       std::move(parameters) +
       std::vector<Parameter>{
@@ -219,16 +217,14 @@ Result<app::MeasurementQuery> measurement_query(const Services& services, const 
   }
   if (const auto text = text_of("run_id")) {
     const auto run = services.measurements.parse_run(*text);
-    if (!run) {
+    if (!run)
       return Error{ErrorCode::QueryInvalid, "run_id must be the id of a run", named("run_id")};
-    }
     query.run_id = run->number;
     query.run_origin = run->origin;
     query.source.reset();  // a run's measurements have no gauge
   }
-  if (const auto verdict = text_of("verdict")) {
+  if (const auto verdict = text_of("verdict"))
     query.verdict = app::code_of<store::Verdict>(*gauging::verdict_from_word(*verdict));
-  }
   // `all` is no source, so that the filter is off.
   if (const auto text = text_of("source")) {
     const auto source = app::source_from_word(*text);

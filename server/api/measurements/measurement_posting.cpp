@@ -14,9 +14,8 @@ constexpr std::size_t kLargeBody = std::size_t{64} << 10;
 Response response_of(app::Answer answer, Preference applied) {
   Response response = api::response_of(std::move(answer));
   if (applied == Preference::Minimal) response.with("Preference-Applied", "return=minimal");
-  if (applied == Preference::Representation) {
+  if (applied == Preference::Representation)
     response.with("Preference-Applied", "return=representation");
-  }
   return response;
 }
 

@@ -27,9 +27,8 @@ Result<app::Note> read_note(std::string_view text) {
   FieldErrors errors;
   NoteOrder order;
   read_body(body, "", errors, order);
-  if (errors.empty() && !order.note.says_something()) {
+  if (errors.empty() && !order.note.says_something())
     errors.add(ErrorCode::FieldMissing, "/cause", "a note must have a cause, an action or a text");
-  }
   if (auto error = errors.take()) return *std::move(error);
   return std::move(order.note);
 }
@@ -81,9 +80,8 @@ struct Entries {
         continue;
       }
       NoteText{}.check(errors, at, item.text);
-      if (!texts.insert(item.text).second) {
+      if (!texts.insert(item.text).second)
         errors.add(ErrorCode::FieldConflict, at, "this entry is repeated");
-      }
     }
     return true;
   }

@@ -14,9 +14,7 @@ struct CharacteristicKey {
 
 /// Returns the key of a value. Without part or characteristic the key is the value's id.
 inline CharacteristicKey key_of(const app::Measurement& m) {
-  if (!m.part_id || !m.characteristic) {
-    return {.name = app::measurement_id_text(m.id, m.origin)};
-  }
+  if (!m.part_id || !m.characteristic) return {.name = app::measurement_id_text(m.id, m.origin)};
   return {.part = std::string(*m.part_id), .name = std::string(*m.characteristic)};
 }
 

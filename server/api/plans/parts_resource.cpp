@@ -126,14 +126,12 @@ Result<void> plan_part(const std::vector<NamedDocument>& plans,
       return place_in(characteristics, value) < end;
     };
     if (plan.name == name) fitting.clear();
-    if (plan.name == name || std::ranges::all_of(part.values, is_planned)) {
+    if (plan.name == name || std::ranges::all_of(part.values, is_planned))
       fitting.emplace_back(plan.name, std::move(characteristics));
-    }
     if (plan.name == name) break;
   }
-  if (named && fitting.empty()) {
+  if (named && fitting.empty())
     return Error{ErrorCode::QueryInvalid, fmt::format("plan not found: '{}'", name), "plan"};
-  }
   if (fitting.size() != 1) return {};
   part.plan = fitting.front().first;
   hold_against(fitting.front().second, part);

@@ -25,9 +25,8 @@ constexpr std::array<std::string_view, 14> kMeasurementFields = {
 
 void check_length(FieldReader& reader, std::string_view name,
                   const std::optional<std::string>& text, std::size_t longest) {
-  if (text && text->size() > longest) {
+  if (text && text->size() > longest)
     reader.report(ErrorCode::FieldTooLong, name, "at most {} bytes", longest);
-  }
 }
 
 void read_text(FieldReader& reader, std::string_view name, std::size_t longest) {
@@ -65,9 +64,8 @@ void check_limits(const JsonValue& characteristic, std::size_t index, const Batc
   row.end();
   const auto error = found.take();
   if (!error) return;
-  for (const Error& each : error->details) {
+  for (const Error& each : error->details)
     errors.add(each.code, "/characteristics" + each.where, each.message);
-  }
 }
 
 void read_characteristic(const JsonValue& value, std::size_t index, const BatchContext& context,
@@ -88,9 +86,8 @@ void read_characteristics(const JsonValue& list, const BatchContext& context, Fi
     return;
   }
   std::set<std::string> names;
-  for (std::size_t i = 0; i < list.items.size(); ++i) {
+  for (std::size_t i = 0; i < list.items.size(); ++i)
     read_characteristic(list.items[i], i, context, names, errors);
-  }
 }
 
 std::string stored_text(const JsonValue& body, std::string_view part) {
@@ -146,9 +143,8 @@ Result<std::string> read_plan(const JsonValue& body, std::string_view part,
   FieldReader plan(body, "", errors);
   if (body.is(JsonValue::Kind::Object)) {
     const auto named = plan.optional_text("part");
-    if (named && *named != part) {
+    if (named && *named != part)
       plan.report(ErrorCode::FieldConflict, "part", "part must be the part number of the path");
-    }
     read_text(plan, "name", kLongestText);
     read_text(plan, "part_pattern", kLongestText);
     if (plan.has("drawing")) {
@@ -159,9 +155,8 @@ Result<std::string> read_plan(const JsonValue& body, std::string_view part,
         fields.refuse_unknown();
       }
     }
-    if (const JsonValue* list = plan.array("characteristics")) {
+    if (const JsonValue* list = plan.array("characteristics"))
       read_characteristics(*list, context, plan, errors);
-    }
     plan.refuse_unknown();
   }
   if (auto error = errors.take()) return std::move(*error);

@@ -307,9 +307,8 @@ std::string unfinished_run_json(const app::StoredRun& run) {
 
 std::string run_page_json(const app::RunService::Page& page, std::string_view next) {
   RunListAnswer list;
-  for (const app::StoredRun& run : page.runs) {
+  for (const app::StoredRun& run : page.runs)
     list.runs.push_back({{run.id_text(), run.state, run.program}, run.created_at, run.finished_at});
-  }
   if (!next.empty()) list.next = next;
   return body_json(list);
 }

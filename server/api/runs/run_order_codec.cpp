@@ -99,9 +99,8 @@ struct ParameterNames {
   bool read(FieldReader& fields, std::string_view of, std::vector<klartext::QRef>& to) const {
     const JsonValue* names = fields.array(of);
     if (names == nullptr) return false;
-    if (names->items.size() > kMost) {
+    if (names->items.size() > kMost)
       fields.report(ErrorCode::FieldInvalid, of, "{} must have at most {} names", of, kMost);
-    }
     for (std::size_t i = 0; i < std::min(names->items.size(), kMost); ++i) {
       const JsonValue& item = names->items[i];
       const auto parameter = interpreter::parse_parameter_name(item.text);
@@ -124,9 +123,8 @@ struct Subject : Text {
   bool read(FieldReader& fields, std::string_view name, std::string& to) const {
     if (!Text::read(fields, name, to)) return false;
     const bool has_nul = to.find('\0') != std::string::npos;
-    if (has_nul) {
+    if (has_nul)
       fields.report(ErrorCode::FieldInvalid, name, "{} must not contain a NUL character", name);
-    }
     return !has_nul;
   }
 };

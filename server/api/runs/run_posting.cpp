@@ -89,9 +89,8 @@ void answer_end(const SharedPosting& posting, std::string location,
 }
 
 void replay(const SharedPosting& posting, app::Answer kept) {
-  if (kept.status == 202) {
+  if (kept.status == 202)
     return posting->responder.answer(with_preference(replayed(std::move(kept))));
-  }
   const std::string_view location = kept.location;
   const auto id =
       posting->services.runs.parse_id(location.substr(std::min(kRuns.size(), location.size())));
@@ -158,9 +157,8 @@ Result<void> start(const SharedPosting& posting) {
   const auto diagnostics = runs.check_program(order.program);
   if (!diagnostics) {
     Error error = diagnostics.error();
-    if (error.code == ErrorCode::ProgramUnknown) {
+    if (error.code == ErrorCode::ProgramUnknown)
       error.details.push_back({error.code, error.message, "/program"});
-    }
     return error;
   }
   if (interpreter::has_errors(*diagnostics, order.options.keeps_unreadable)) {

@@ -115,9 +115,8 @@ bool read_numbers(const JsonValue& array, const std::string& pointer, std::span<
   }
   // The elements as members of an object, whose names are then the tokens of their pointers.
   JsonValue object{.kind = JsonValue::Kind::Object};
-  for (std::size_t i = 0; i < to.size(); ++i) {
+  for (std::size_t i = 0; i < to.size(); ++i)
     object.members.emplace_back(std::to_string(i), array.items[i]);
-  }
   FieldReader element(object, pointer, errors);
   for (std::size_t i = 0; i < to.size(); ++i) {
     const std::string& index = object.members[i].first;

@@ -174,9 +174,8 @@ inline constexpr auto axis_form(machine::Axis axis) {
                 }};
 }
 inline constexpr Nested kAxesForm{"Axes", [](auto& v, auto& axes) {
-                                    for (const machine::Axis axis : machine::kAllAxes) {
+                                    for (const machine::Axis axis : machine::kAllAxes)
                                       v.optional(name(axis), axes[index(axis)], axis_form(axis));
-                                    }
                                   }};
 inline constexpr Nested kStudForm{"CalibrationStud", [](auto& v, machine::Boss& stud) {
                                     stud.height = 20;

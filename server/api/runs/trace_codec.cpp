@@ -23,9 +23,8 @@ void write_position(JsonWriter& json, std::string_view which, const machine::Pos
 
 void write_point(JsonWriter& json, std::string_view key, const machine::Vec3& point) {
   json.key(key).begin_object();
-  for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+  for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
     json.key(name(axis)).fixed(point[index(axis)], kDecimals);
-  }
   json.end_object();
 }
 
@@ -86,9 +85,8 @@ void write_block(std::string& out, const app::TracePlace& place, std::size_t mov
 
 std::string write_tail(std::size_t dropped, const std::optional<app::WatchedBlocks>& blocks) {
   std::string tail = fmt::format("\n],\"dropped\":{}", dropped);
-  if (blocks) {
+  if (blocks)
     tail += fmt::format(",\"blocks\":[{}],\"blocks_dropped\":{}", blocks->text, blocks->dropped);
-  }
   return tail + '}';
 }
 

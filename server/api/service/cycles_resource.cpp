@@ -63,9 +63,8 @@ namespace {
 Response list_cycles() {
   CyclesAnswer answer;
   for (const auto* cycle : probing::cycles()) answer.cycles.push_back(cycle->descriptor);
-  for (const auto& cycle : interpreter::machining_cycles()) {
+  for (const auto& cycle : interpreter::machining_cycles())
     answer.cycles.push_back(cycle.descriptor);
-  }
   return {200, "application/json", body_json(answer)};
 }
 

@@ -26,9 +26,8 @@ std::optional<std::string_view> token_of(const Request& request) {
   constexpr std::string_view kScheme = "bearer ";
   if (const auto header = request.header("Authorization")) {
     const std::string_view text = trim(*header);
-    if (ascii_iequals(text.substr(0, kScheme.size()), kScheme)) {
+    if (ascii_iequals(text.substr(0, kScheme.size()), kScheme))
       return trim(text.substr(kScheme.size()));
-    }
     return std::string_view();
   }
   if (const auto header = request.header("X-API-Key")) return trim(*header);
@@ -79,9 +78,8 @@ Result<std::optional<Response>> Guard::operator()(Request& request,
 
   const std::string_view access = access_of(route, request);
   if (access == "public") return std::optional<Response>();
-  if (request.is_health_only()) {
+  if (request.is_health_only())
     return Error{ErrorCode::Forbidden, "this port answers only /livez and /readyz"};
-  }
   const app::Role needed =
       app::role_from_word(access).value_or(access == "open" ? app::Role::Viewer : app::Role::Admin);
   if (closed_ && is_write(request.method()) && needed != app::Role::Viewer) {
@@ -93,9 +91,8 @@ Result<std::optional<Response>> Guard::operator()(Request& request,
     caller = keys_.find(*token);
     // Other text belongs to a proxy or another service and is ignored.
     if (!caller && token->starts_with(kTokenPrefix)) return invalid_key();
-    if (caller && caller->is_expired) {
+    if (caller && caller->is_expired)
       return Error{ErrorCode::KeyExpired, "the key " + caller->name + " has expired"};
-    }
     if (caller) request.set_caller(Caller{caller->name, caller->key});
   }
   const bool is_open = mode_ != AuthMode::Keys && access == "open" && !is_foreign;

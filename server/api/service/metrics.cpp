@@ -127,9 +127,7 @@ std::string Metrics::text() const {
                   "From a request's first byte to its answer's last byte");
     for (const auto& [route, seconds] : seconds_) out.sample(seconds, {{"route", route}});
     out.counter("fitgauge_problems_total", "Problem documents answered, by their code");
-    for (const auto& [code, count] : problems_) {
-      out.sample(count, {{"code", id(code)}});
-    }
+    for (const auto& [code, count] : problems_) out.sample(count, {{"code", id(code)}});
     sources = sources_;
   }
   for (const Source& source : sources) source(out);
@@ -140,9 +138,8 @@ void VerdictCounts::refresh(std::function<void()> done) {
   std::optional<std::int64_t> after;
   {
     const std::lock_guard lock(mutex_);
-    if (!std::exchange(reading_, true)) {
+    if (!std::exchange(reading_, true))
       after = position_.value_or(std::numeric_limits<std::int64_t>::max());
-    }
   }
   if (!after) return done();
   struct Read {
@@ -177,9 +174,8 @@ void VerdictCounts::take(const Result<app::ListPage>& page, const Counts& counts
   }
   if (last > 0) position_ = last;
   for (std::size_t source = 0; source < kSources; ++source) {
-    for (std::size_t verdict = 0; verdict < gauging::kVerdicts; ++verdict) {
+    for (std::size_t verdict = 0; verdict < gauging::kVerdicts; ++verdict)
       counts_[source][verdict] += counts[source][verdict];
-    }
   }
 }
 

@@ -15,9 +15,7 @@ Overloaded(Functions...) -> Overloaded<Functions...>;
 void write_schema(JsonWriter& json, const http::ParameterType& type) {
   json.key("schema");
   const auto* const described = std::get_if<http::Text>(&type);
-  if (described != nullptr && !described->schema.empty()) {
-    return void(json.raw(described->schema));
-  }
+  if (described != nullptr && !described->schema.empty()) return void(json.raw(described->schema));
   json.begin_object();
   std::visit(
       Overloaded{
@@ -201,9 +199,8 @@ void write_responses(JsonWriter& json, const http::Route& route) {
     write_headers(json, route, 304);
     json.end_object();
   }
-  for (const int status : refusals_of(route)) {
+  for (const int status : refusals_of(route))
     json.key(std::to_string(status)).begin_object().member("$ref", refusal(status)).end_object();
-  }
   json.key("default").begin_object().member("$ref", refusal(0)).end_object().end_object();
 }
 

@@ -46,9 +46,8 @@ PageFiles prepare_files() {
 
 Result<Response> answer(const PageFiles& files, std::string_view path) {
   const auto found = files.find(path);
-  if (found == files.end()) {
+  if (found == files.end())
     return Error{ErrorCode::NotFound, "the page has no file " + std::string(path)};
-  }
   return Response(found->second);
 }
 

@@ -12,9 +12,8 @@ class Example {
   Example(const Schemas& schemas, const JsonValue& texts) : schemas_(schemas), texts_(texts) {}
 
   void write(JsonWriter& json, const JsonValue& schema, std::string_view name) const {
-    if (const JsonValue* named = schema.find("$ref")) {
+    if (const JsonValue* named = schema.find("$ref"))
       return write(json, schemas_.at(named->text.substr(named->text.rfind('/') + 1)), name);
-    }
     for (const std::string_view list : {"examples", "enum"}) {
       if (const JsonValue* values = schema.find(list)) return write_json(json, values->items.at(0));
     }

@@ -134,13 +134,11 @@ Result<Proposal> proposal_of(CorrectedParts& read, double cost) {
   const bool has_limits = read.lower || read.upper;
   if (!read.newest.empty() && !has_limits)
     return Error{ErrorCode::LimitsNone, "the values have no limits, which an offset needs"};
-  if (!read.target && has_limits) {
+  if (!read.target && has_limits)
     return Error{ErrorCode::QueryInvalid, "values with one limit need a target", "target_mm"};
-  }
   const double half = read.target ? read.half_tolerance() : 0;
-  if (read.target && !(half > 0)) {
+  if (read.target && !(half > 0))
     return Error{ErrorCode::QueryInvalid, "target_mm must be between the limits", "target_mm"};
-  }
   std::ranges::reverse(read.parts);
   Proposal proposal{.found = metrology::propose_offset(read.parts, half, cost),
                     .values = read.parts.size()};

@@ -23,9 +23,8 @@ void report_type(const JsonValue& value, std::string pointer, FieldErrors& error
 void read_items(const JsonValue& array, const std::string& pointer, Decimals& to,
                 FieldErrors& errors) {
   if (array.items.empty()) errors.add(ErrorCode::StatisticsTooFew, pointer, "there is no value");
-  for (std::size_t i = 0; i < array.items.size(); ++i) {
+  for (std::size_t i = 0; i < array.items.size(); ++i)
     add_exact(array.items[i], pointer_to(pointer, i), to, errors);
-  }
 }
 
 }  // namespace
@@ -40,9 +39,8 @@ void add_exact(const JsonValue& value, const std::string& pointer, Decimals& to,
                     first_characters(value.text, 40)));
     return;
   }
-  if (const auto added = to.add(value.text); !added) {
+  if (const auto added = to.add(value.text); !added)
     errors.add(added.error().code, pointer, added.error().message);
-  }
 }
 
 bool ExactNumber::read(FieldReader& fields, std::string_view name, Exact& to) const {
@@ -84,16 +82,14 @@ bool ExactGroups::read(FieldReader& fields, std::string_view name, Groups& to) c
     read_items(group, place, to.values, errors);
     to.ends.push_back(to.values.size());
   }
-  if (array->items.empty()) {
+  if (array->items.empty())
     errors.add(ErrorCode::StatisticsTooFew, pointer, "give one group of values or more");
-  }
   return true;
 }
 
 bool ExactSubgroups::read(FieldReader& fields, std::string_view name, Subgroups& to) const {
-  if (fields.has("values")) {
+  if (fields.has("values"))
     fields.report(ErrorCode::FieldConflict, name, "give values or subgroups, not both");
-  }
   FieldErrors& errors = fields.errors();
   const FieldErrors::Mark before = errors.mark();
   Groups groups;

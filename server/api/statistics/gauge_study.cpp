@@ -98,9 +98,8 @@ void members(auto& v, VariationOrder& study) {
 /// StudyLabels that a method does not use.
 void unused_labels(auto& v) {
   std::string unused;
-  for (const std::string_view label : {"part", "operator", "trial"}) {
+  for (const std::string_view label : {"part", "operator", "trial"})
     v.optional(label, unused, StudyLabel{});
-  }
 }
 
 struct LinearityOrder {

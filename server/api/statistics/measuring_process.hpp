@@ -25,9 +25,8 @@ void members(auto& v, MeasuringOrder<is_process>& order) {
     const auto& [name, of, meaning] = metrology::kComponents.at(i);
     const auto component = static_cast<Component>(i);
     const bool is_found = of == (is_process ? ComponentOf::Parts : ComponentOf::Master);
-    if (is_found || component == Component::Re || (!is_process && component > Component::MsRest)) {
+    if (is_found || component == Component::Re || (!is_process && component > Component::MsRest))
       continue;
-    }
     const bool is_required = of == ComponentOf::Master || component == Component::Cal;
     std::optional<double>& u = order.known[component];
     is_required ? v.member(name, u, kStandard, meaning) : v.optional(name, u, kStandard, meaning);

@@ -61,9 +61,8 @@ void members(auto& v, CapabilityOrder& order) {
   v.optional("upper", order.limits.upper);
   v.optional("target", order.limits.target, "Target of cpm (default: the middle of the limits)");
   v.check([](FieldReader& fields) {
-    if (!fields.has("lower") && !fields.has("upper")) {
+    if (!fields.has("lower") && !fields.has("upper"))
       fields.report(ErrorCode::FieldMissing, "upper", "give lower, upper or both");
-    }
   });
   v.optional("confidence", order.confidence,
              Number{.least = 0, .most = 1, .ends = Number::Ends::Open},

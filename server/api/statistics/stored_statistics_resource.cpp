@@ -68,9 +68,8 @@ Result<metrology::ZoneRules> parse_rules(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool is_digit = i % 2 == 0;
     const bool fits = is_digit ? text[i] >= '1' && text[i] <= '4' : text[i] == ',';
-    if (!fits || text.size() % 2 == 0) {
+    if (!fits || text.size() % 2 == 0)
       return invalid("rules", "rules must contain only 1, 2, 3 and 4, with commas: rules=1,2");
-    }
     if (is_digit) rules.add(text[i] - '0');
   }
   return rules;
@@ -177,9 +176,8 @@ char* write_point(char* to, double point) {
   constexpr double kMost = 1e15;
   constexpr int kDecimalPlaces = 6;
   const double nanometres = std::nearbyint(point * kNanometresOfOne);
-  if (std::abs(nanometres) < kMost && nanometres / kNanometresOfOne == point) {
+  if (std::abs(nanometres) < kMost && nanometres / kNanometresOfOne == point)
     return write_decimal(to, static_cast<std::int64_t>(nanometres), kDecimalPlaces);
-  }
   if (!std::isfinite(point)) return std::copy_n("null", 4, to);
   return std::to_chars(to, to + kPointRoom, point).ptr;
 }

@@ -49,9 +49,8 @@ struct StudyRows {
   bool read(FieldReader& fields, std::string_view name, Study& to) const {
     const JsonValue* array = fields.array(name);
     if (array == nullptr) return false;
-    if (array->items.empty()) {
+    if (array->items.empty())
       fields.report(ErrorCode::StatisticsTooFew, name, "a study needs at least one measurement");
-    }
     for (std::size_t i = 0; i < array->items.size(); ++i) {
       BodyReader row(array->items[i], pointer_to(fields.at(name), i), fields.errors());
       if (!array->items[i].is(JsonValue::Kind::Object)) continue;

@@ -93,9 +93,8 @@ Result<void> ValueSelection::add(const app::MeasuredRun& run) {
                      app::measurement_id_text(run.values.front().id, run.origin), text_of(limits));
   }
   names_subgroups_ = names_subgroups_ || run.subgroup.has_value();
-  if (!run.subgroup && !ungrouped_) {
+  if (!run.subgroup && !ungrouped_)
     ungrouped_ = app::measurement_id_text(run.values.front().id, run.origin);
-  }
   if (!ungrouped_) join(*run.subgroup, run.values.size());
   if (bytes_ + ids_.bytes() + counts_.size() * sizeof(Wide) > most_bytes_) {
     return Error::of(ErrorCode::StatisticsTooMany,
@@ -136,9 +135,8 @@ void ValueSelection::move(const std::vector<app::MovedValue>& moves) {
   order.reserve(counts_.size());
   auto next = moves.begin();
   for (std::size_t i = 0; i < counts_.size(); ++i) {
-    for (; next != moves.end() && next->to <= i; ++next) {
+    for (; next != moves.end() && next->to <= i; ++next)
       order.push_back(static_cast<std::uint32_t>(next->from));
-    }
     if (!is_moved[i]) order.push_back(static_cast<std::uint32_t>(i));
   }
   const auto in_order = [&order](const auto& of) {

@@ -71,17 +71,15 @@ std::string table_json(Feature feature, const std::vector<ClassId>& classes,
 /// Writes the table as CSV with two columns for each class; an undefined class is blank.
 std::string table_csv(const std::vector<ClassId>& classes, const ToleranceTables& tables) {
   std::string out = "over_mm,up_to_mm";
-  for (const ClassId id : classes) {
+  for (const ClassId id : classes)
     out += fmt::format(",{0}_upper_um,{0}_lower_um", tables.class_name(id));
-  }
   out += "\r\n";
   for (const NominalSizeRange& range : tables.ranges()) {
     append_mm(out, range.over);
     out += ',';
     append_mm(out, range.up_to);
-    for (const ClassId id : classes) {
+    for (const ClassId id : classes)
       append_class_cells(out, deviations_in_range(tables, id, range));
-    }
     out += "\r\n";
   }
   return out;
@@ -185,9 +183,8 @@ void put_column(const Services& services, Feature feature, const Request& reques
       [shared](Result<app::TableCatalog::ColumnStored> stored) {
         if (stored) return answer_change(shared, stored->created ? 201 : 200, *stored);
         Error error = std::move(stored).error();
-        if (error.code == ErrorCode::TableRowsInvalid) {
+        if (error.code == ErrorCode::TableRowsInvalid)
           error = listed(ErrorCode::RequestInvalid, std::move(error.details));
-        }
         shared->fail(std::move(error));
       });
 }

@@ -15,9 +15,8 @@ void write_detail(JsonWriter& json, const Error& detail) {
 
 void add_headers(const Error& error, int status, Response& response) {
   if (status == 401) response.with("WWW-Authenticate", "Bearer realm=\"fitgauge\"");
-  if (status == 503 && error.code != ErrorCode::TablesInconsistent) {
+  if (status == 503 && error.code != ErrorCode::TablesInconsistent)
     response.with("Retry-After", "1");
-  }
 }
 
 }  // namespace

@@ -53,13 +53,11 @@ Result<std::optional<std::string>> idempotency_key(const Request& request) {
   constexpr std::size_t kLongest = 255;
   const auto header = request.header("Idempotency-Key");
   if (!header) return std::optional<std::string>();
-  if (request.header_list("Idempotency-Key") != *header) {
+  if (request.header_list("Idempotency-Key") != *header)
     return Error{ErrorCode::IdempotencyKeyInvalid, "send one Idempotency-Key"};
-  }
   std::string_view key = trim(*header);
-  if (key.size() >= 2 && key.front() == '"' && key.back() == '"') {
+  if (key.size() >= 2 && key.front() == '"' && key.back() == '"')
     key = key.substr(1, key.size() - 2);
-  }
   const bool visible = std::ranges::all_of(key, [](char c) { return c >= ' ' && c <= '~'; });
   if (key.empty() || key.size() > kLongest || !visible) {
     return Error{ErrorCode::IdempotencyKeyInvalid,

@@ -26,9 +26,7 @@ bool Time::read(FieldReader& fields, std::string_view name, Timestamp& to) const
 bool Word::read(FieldReader& fields, std::string_view name, std::string& to) const {
   auto given = fields.text(name);
   if (!given) return false;
-  if (*given != word) {
-    fields.report(ErrorCode::FieldInvalid, name, "{} must be {}", name, word);
-  }
+  if (*given != word) fields.report(ErrorCode::FieldInvalid, name, "{} must be {}", name, word);
   to = *std::move(given);
   return to == word;
 }
@@ -40,12 +38,10 @@ std::string Integer::schema(Side) const {
 
 std::string Number::schema(Side) const {
   std::string json = schema::number();
-  if (std::isfinite(least)) {
+  if (std::isfinite(least))
     json = schema::bounded(json, ends == Ends::Closed ? "minimum" : "exclusiveMinimum", least);
-  }
-  if (std::isfinite(most)) {
+  if (std::isfinite(most))
     json = schema::bounded(json, ends == Ends::Open ? "exclusiveMaximum" : "maximum", most);
-  }
   return json;
 }
 

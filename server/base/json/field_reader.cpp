@@ -71,18 +71,16 @@ void FieldReader::report(ErrorCode code, std::string_view name, std::string mess
 const JsonValue* FieldReader::take(std::string_view name, bool required) {
   known_.push_back(name);
   const JsonValue* value = object_.find(name);
-  if (value == nullptr && required && object_.is(Kind::Object)) {
+  if (value == nullptr && required && object_.is(Kind::Object))
     report(ErrorCode::FieldMissing, name, "{} is required", name);
-  }
   return value;
 }
 
 const JsonValue* FieldReader::take(std::string_view name, bool required,
                                    std::initializer_list<Kind> kinds, std::string_view wanted) {
   const JsonValue* value = take(name, required);
-  if (value == nullptr || std::find(kinds.begin(), kinds.end(), value->kind) != kinds.end()) {
+  if (value == nullptr || std::find(kinds.begin(), kinds.end(), value->kind) != kinds.end())
     return value;
-  }
   report(ErrorCode::FieldType, name, "{} must be {}; got {}", name, wanted, name_of(value->kind));
   return nullptr;
 }
@@ -168,9 +166,8 @@ void FieldReader::refuse_not_applicable(std::span<const Applicable> table, std::
 
 void FieldReader::refuse_unknown() {
   for (const auto& [name, value] : object_.members) {
-    if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
+    if (std::find(known_.begin(), known_.end(), name) == known_.end())
       report(ErrorCode::FieldUnknown, name, "unknown field {}", name);
-    }
   }
 }
 

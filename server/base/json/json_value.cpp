@@ -65,9 +65,8 @@ class Builder final : public nlohmann::json_sax<WideJson> {
     // The text after the library's prefix names the read and the expected token.
     constexpr std::size_t kLongestReason = 160;
     std::string_view reason = exception.what();
-    if (const auto at = reason.find(": "); at != std::string_view::npos) {
+    if (const auto at = reason.find(": "); at != std::string_view::npos)
       reason.remove_prefix(at + 2);
-    }
     const std::string where = place(text_, position == 0 ? 0 : position - 1);
     error_ =
         Error{ErrorCode::JsonMalformed,
@@ -130,12 +129,10 @@ class Builder final : public nlohmann::json_sax<WideJson> {
 /// @param most values of the tree that is built; items handed over are counted each by itself.
 Result<JsonValue> read(std::string_view text, const JsonItemHandler& handle_item,
                        std::size_t most) {
-  if (text.starts_with("\xEF\xBB\xBF")) {
+  if (text.starts_with("\xEF\xBB\xBF"))
     return Error{ErrorCode::TextEncoding, "JSON begins with a byte-order mark: remove it"};
-  }
-  if (const std::size_t at = find_invalid_utf8(text); at != std::string_view::npos) {
+  if (const std::size_t at = find_invalid_utf8(text); at != std::string_view::npos)
     return Error{ErrorCode::TextEncoding, fmt::format("byte {} is not UTF-8", at), place(text, at)};
-  }
   // The library regards a NUL as the end of the text.
   if (const std::size_t at = text.find('\0'); at != std::string_view::npos) {
     const std::string where = place(text, at);

@@ -135,9 +135,8 @@ void CurlHandle::begin(const std::string& url, const std::string& method,
 }
 
 std::size_t CurlHandle::take_header(char* data, std::size_t, std::size_t size, void* handle) {
-  if (const auto wait = fitgauge::retry_after({data, size})) {
+  if (const auto wait = fitgauge::retry_after({data, size}))
     static_cast<CurlHandle*>(handle)->retry_after_ = *wait;
-  }
   return size;
 }
 
@@ -224,9 +223,8 @@ std::optional<std::string> fault_of_url(const std::string& url) {
   const std::string scheme = part(CURLUPART_SCHEME);
   if (scheme != "https" && scheme != "http")
     return "the address must begin with https:// or http://";
-  if (!part(CURLUPART_USER).empty() || !part(CURLUPART_PASSWORD).empty()) {
+  if (!part(CURLUPART_USER).empty() || !part(CURLUPART_PASSWORD).empty())
     return "the address must not contain a name or password: the signature identifies the sender";
-  }
   return std::nullopt;
 }
 

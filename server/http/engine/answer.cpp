@@ -141,9 +141,8 @@ class TextStream final : public BodyStream {
 
 /// Returns the body's bytes, with an owner if the body is large enough to be sent without a copy.
 std::pair<std::shared_ptr<const std::string>, std::string_view> bytes_of(Body& body) {
-  if (auto* shared = std::get_if<std::shared_ptr<const std::string>>(&body)) {
+  if (auto* shared = std::get_if<std::shared_ptr<const std::string>>(&body))
     return {*shared, *shared ? std::string_view(**shared) : std::string_view{}};
-  }
   auto& own = std::get<std::string>(body);
   if (own.size() <= OutputQueue::kLongBody) return {nullptr, own};
   auto kept = std::make_shared<const std::string>(std::move(own));
@@ -153,9 +152,8 @@ std::pair<std::shared_ptr<const std::string>, std::string_view> bytes_of(Body& b
 
 std::string_view body_of(const Response& response) {
   if (const auto* own = std::get_if<std::string>(&response.body)) return *own;
-  if (const auto* shared = std::get_if<std::shared_ptr<const std::string>>(&response.body)) {
+  if (const auto* shared = std::get_if<std::shared_ptr<const std::string>>(&response.body))
     return *shared ? std::string_view(**shared) : std::string_view{};
-  }
   throw std::logic_error("a streamed body cannot be prepared");
 }
 

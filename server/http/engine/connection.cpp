@@ -126,9 +126,8 @@ bool Connection::begin_request() {
 }
 
 bool Connection::open_exchange() {
-  if (!head_.keep_alive || thread_.shared().stopping.load(std::memory_order_relaxed)) {
+  if (!head_.keep_alive || thread_.shared().stopping.load(std::memory_order_relaxed))
     close_after_ = true;
-  }
   sent_ = {};
   sent_bytes_ = 0;
   is_open_ = true;
@@ -275,9 +274,8 @@ void Connection::close() noexcept {
   close_socket();
   if (!in_handler) body_.clear();  // a handler has the request until its Responder is gone
   output_.discard();
-  if (const auto stream = std::exchange(stream_, std::nullopt)) {
+  if (const auto stream = std::exchange(stream_, std::nullopt))
     fitgauge::guarded("a stream that ends early", [&] { stream->source->cancelled(); });
-  }
   thread_.remove(*this);
 }
 

@@ -44,9 +44,8 @@ void Exchange::take(RequestHead& head, std::uint64_t id) {
   request_.head_ = &head;
   request_.peer_ = &peer_;
   request_.id_ = id;
-  for (std::size_t i = request_.own_id_.size(); i-- > 0; id >>= 4) {
+  for (std::size_t i = request_.own_id_.size(); i-- > 0; id >>= 4)
     request_.own_id_[i] = "0123456789abcdef"[id & 0xf];
-  }
   request_.method_ = method_named(head.method);
   if (head.has_request_id) {
     const std::string_view given = head.find("X-Request-Id").value_or("");
@@ -57,9 +56,8 @@ void Exchange::take(RequestHead& head, std::uint64_t id) {
     const auto allowed = std::ranges::find(allowed_origins_, origin);
     if (allowed != allowed_origins_.end()) request_.allowed_origin_ = *allowed;
   }
-  if (head.has_accept_encoding && !head.http_1_0) {
+  if (head.has_accept_encoding && !head.http_1_0)
     codings_ = accepted_codings(head.find_list("Accept-Encoding").value_or(""));
-  }
 }
 
 std::optional<Response> Exchange::open(RequestHead& head, std::uint64_t id) {
@@ -72,9 +70,8 @@ std::optional<Response> Exchange::open(RequestHead& head, std::uint64_t id) {
 }
 
 std::optional<Response> Exchange::dispatch() {
-  if (head_->target == "*" && request_.method_ == Method::Options) {
+  if (head_->target == "*" && request_.method_ == Method::Options)
     return Response(204).with("Allow", std::string(kAllMethods));
-  }
   if (auto refusal = take_target()) return error_response(*refusal);
 
   decoded_.reserve(head_->target.size());
@@ -134,15 +131,13 @@ std::optional<Refusal> Exchange::take_target() {
     }
     target.remove_prefix(scheme + 3);
     const std::string_view authority = target.substr(0, target.find_first_of("/?"));
-    if (!is_authority(authority)) {
+    if (!is_authority(authority))
       return Refusal{400, ErrorCode::RequestMalformed, "request target must name a host"};
-    }
     head_->host = authority;
     target.remove_prefix(authority.size());
   }
-  if (target.find('#') != std::string_view::npos) {
+  if (target.find('#') != std::string_view::npos)
     return Refusal{400, ErrorCode::PathMalformed, "request target must not have a fragment (#)"};
-  }
   const std::size_t mark = target.find('?');
   request_.path_ = target.substr(0, mark);
   if (request_.path_.empty()) request_.path_ = "/";
@@ -257,9 +252,8 @@ std::optional<Refusal> Exchange::negotiate() {
 std::optional<Refusal> Exchange::check_expectation() {
   if (!head_->has_expect || head_->http_1_0) return std::nullopt;
   const std::string expect = head_->find_list("Expect").value_or("");
-  if (!ascii_iequals(expect, "100-continue")) {
+  if (!ascii_iequals(expect, "100-continue"))
     return Refusal{417, ErrorCode::ExpectationFailed, "Expect must be 100-continue"};
-  }
   wants_continue_ = head_->has_body();
   return std::nullopt;
 }
@@ -284,16 +278,14 @@ std::optional<Refusal> Exchange::check_body() {
                      fmt::format("Content-Type must be {}{}", types.size() > 1 ? "one of: " : "",
                                  fmt::join(types, ", "))};
     }
-    if (!media->charset.empty() && media->charset != "utf-8") {
+    if (!media->charset.empty() && media->charset != "utf-8")
       return Refusal{415, ErrorCode::MediaTypeUnsupported, "charset of Content-Type must be UTF-8"};
-    }
   }
   if (!head_->has_body()) return std::nullopt;
   const std::string coding = head_->find_list("Content-Encoding").value_or("identity");
   gzip_ = ascii_iequals(coding, "gzip") || ascii_iequals(coding, "x-gzip");
-  if (!gzip_ && !ascii_iequals(coding, "identity")) {
+  if (!gzip_ && !ascii_iequals(coding, "identity"))
     return Refusal{415, ErrorCode::EncodingUnsupported, "Content-Encoding must be gzip"};
-  }
   if (head_->content_length.value_or(0) > rules.limit) return body_too_large();
   return std::nullopt;
 }

@@ -120,9 +120,8 @@ RequestParser::Step RequestParser::parse(std::string_view input, std::size_t& us
 RequestParser::Step RequestParser::take_error(const beast::error_code& error,
                                               std::string_view pending) {
   if (error == beast::http::error::need_more) return need_more(pending);
-  if (error == beast::http::error::bad_version) {
+  if (error == beast::http::error::bad_version)
     return refuse(400, ErrorCode::VersionUnsupported, "HTTP version must be 1.0 or 1.1");
-  }
   if (error == beast::http::error::header_limit) return refuse_long_header();
   if (error == beast::http::error::bad_chunk && has_endless_size(pending)) return refuse_body();
   return refuse(400, ErrorCode::RequestMalformed, describe(error));
@@ -134,13 +133,11 @@ RequestParser::Step RequestParser::need_more(std::string_view pending) {
       return refuse(400, ErrorCode::RequestMalformed,
                     "chunk framing or trailer of 16 KiB contains no byte of the body");
     }
-    if (has_bare_line_feed(pending)) {
+    if (has_bare_line_feed(pending))
       return refuse(400, ErrorCode::RequestMalformed, "lines of the request must end with CR LF");
-    }
   } else if (head_.method.empty()) {
-    if (pending.size() > kMaxTarget + 64) {
+    if (pending.size() > kMaxTarget + 64)
       return refuse(414, ErrorCode::TargetTooLong, "request target must have at most 8 KiB");
-    }
   } else if (head_bytes_ + pending.size() > kMaxHeaderSection) {
     return refuse_long_header();
   }
@@ -181,9 +178,8 @@ void RequestParser::on_field_impl(beast::http::field field, beast::string_view n
   if (is_folded(name, value)) {
     refuse(400, ErrorCode::RequestMalformed, "a header field must be on one line");
   } else if (!head_done_) {  // trailer fields are read and thrown away
-    if (head_.fields.size() == kMaxFields) {
+    if (head_.fields.size() == kMaxFields)
       refuse(431, ErrorCode::HeaderTooLarge, "header section must have at most 100 fields");
-    }
     switch (field) {
       case beast::http::field::host:
         once(has_host_);
@@ -195,9 +191,8 @@ void RequestParser::on_field_impl(beast::http::field field, beast::string_view n
         break;
       case beast::http::field::content_length:
         once(has_content_length_);
-        if (!is_digits(value)) {
+        if (!is_digits(value))
           refuse(400, ErrorCode::RequestMalformed, "Content-Length must be a number");
-        }
         break;
       case beast::http::field::content_type: once(has_content_type_); break;
       case beast::http::field::accept: head_.has_accept = true; break;

@@ -39,17 +39,15 @@ struct Reader {
   }
 
   Result<ArgumentValue> operator()(const Text& type) const {
-    if (text.size() > type.max_length) {
+    if (text.size() > type.max_length)
       return refuse(fmt::format("at most {} bytes long", type.max_length));
-    }
     return ArgumentValue(text);
   }
 
   Result<ArgumentValue> operator()(const Integer& type) const {
     const auto value = read_number<std::int64_t>(text);
-    if (!value || *value < type.min || *value > type.max) {
+    if (!value || *value < type.min || *value > type.max)
       return refuse(fmt::format("a whole number from {} to {}", type.min, type.max));
-    }
     return ArgumentValue(*value);
   }
 
@@ -78,9 +76,8 @@ struct Reader {
 
   Result<ArgumentValue> operator()(const Words& type) const {
     const auto found = std::ranges::find(type.words, text);
-    if (found == type.words.end()) {
+    if (found == type.words.end())
       return refuse(fmt::format("one of: {}", fmt::join(type.words, ", ")));
-    }
     return ArgumentValue(std::string_view(*found));
   }
 
@@ -209,15 +206,13 @@ void RouteTree::add(Route& route, std::int16_t index) {
   }
   const auto path_parameters = std::ranges::count_if(
       route.parameters, [](const Parameter& each) { return each.place == ParameterPlace::Path; });
-  if (static_cast<std::size_t>(path_parameters) != plan.captures.size()) {
+  if (static_cast<std::size_t>(path_parameters) != plan.captures.size())
     fail("declares a path parameter that the pattern does not have");
-  }
 }
 
 const Resource* RouteTree::descend(const Node& node, const PathSegments& path, std::size_t depth) {
-  if (depth == path.count()) {
+  if (depth == path.count())
     return node.is_resource && !path.is_longer() ? &node.resource : nullptr;
-  }
   const std::string_view segment = path.segment(depth);
   for (const auto& [text, child] : node.literals) {
     if (text != segment) continue;
