@@ -7,8 +7,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) { return app.get_s
 
 bool is_flag(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
 
-/// Kinds of values, and the last words of the options that have them. An option may name its kind
-/// itself; others have any text.
+/// Kinds of values, and the last words of their options. An option may name its kind.
 constexpr std::pair<std::string_view, std::string_view> kValueKinds[] = {
     {"FILE", " file files paths programs target contacts state output ca cert key "},
     {"FOLDER", " files-to "},
@@ -128,8 +127,7 @@ void add_zsh(std::string& out, const CLI::App& app, const std::string& function)
   out += "    esac ;;\n  esac\n}\n";
 }
 
-// The completion scripts of fish and zsh are made from the commands, with their help. The script of
-// bash is a file (completion/fitgauge.bash).
+// The scripts of fish and zsh are made from the commands; that of bash is a file.
 std::string fish_completion(const CLI::App& app) {
   std::string out = "# fish completion for fitgauge(1): fitgauge completion fish\n";
   out += "complete -c fitgauge -f\n";

@@ -9,8 +9,7 @@ namespace fitgauge::cli {
 /// The request of a command line.
 using Action = std::function<Outcome<ExitCode>(const Context&)>;
 
-/// Registers every command with its options. Parsing stores the action of the chosen command in
-/// `chosen`, which must outlive `app`.
+/// Registers every command. Parsing stores the action of one in `chosen`, which outlives `app`.
 void add_commands(CLI::App& app, Action& chosen);
 
 /// completion/fitgauge.bash, from the build.

@@ -14,8 +14,7 @@
 namespace fitgauge::cli {
 namespace {
 
-/// A serial port that sends lines of text: 8 bits, no parity, one stop bit. Owns the port; not for
-/// several threads.
+/// A serial port that sends lines of text: 8 bits, no parity, one stop bit. Owns the port.
 class SerialPort {
  public:
   /// Opens the port and discards its old input. @errors LocalFile, Usage for an unknown baud rate.
@@ -139,8 +138,7 @@ Length length_of(const JsonValue& document, std::string_view member) {
   return parse_length_mm(document.text_of(member)).value();
 }
 
-/// `8 µm below the upper limit`: the value relative to the nearest limit. `25 to 25.021 mm`; a
-/// drawing may have only one limit.
+/// `25 to 25.021 mm`; a drawing may have only one limit.
 std::string limits_text(const JsonValue& document) {
   const std::string_view lower = document.text_of("lower_limit_mm");
   const std::string_view upper = document.text_of("upper_limit_mm");

@@ -322,8 +322,7 @@ void handle(Server& server, const std::string& text) {
            JsonObject().add_raw("type", "1").add("message", reply.error().message));
 }
 
-/// Returns the next message; none at the end of the input. After a wrong header it returns an error
-/// and searches the next header.
+/// The next message; none at the end. After a wrong header: an error, then the next header.
 std::optional<Reply> next_message(bool& is_lost) {
   constexpr std::string_view kLength = "content-length:";
   const auto lose = [&is_lost](std::string problem) {

@@ -121,8 +121,7 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("{}{} see {} --help", what, what.ends_with('?') ? "" : ";", name);
 }
 
-/// Fills closed standard descriptors with one that is neither read nor written: otherwise the next
-/// socket would take their place.
+/// Fills closed standard descriptors: otherwise the next socket would take their place.
 void occupy_standard_descriptors() {
   int opened = 0;
   while (opened >= 0 && opened <= STDERR_FILENO) opened = ::open("/", O_PATH);

@@ -66,8 +66,7 @@ class Upload {
     return begin_chunks([file](std::span<char> into) { return file->read(into); });
   }
 
-  /// Opens the rows as the service accepts them, for files of any size. Equal rows become equal
-  /// text, even if the file grows.
+  /// Opens the rows as the service accepts them. Equal rows become equal text.
   Outcome<CsvChunks> open_rows() {
     const bool is_ndjson = sheet::is_ndjson(options_.input);
     if (is_ndjson && is_converted(options_)) {

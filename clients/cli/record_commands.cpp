@@ -84,8 +84,7 @@ struct CorrectOptions {
   std::string reason;
 };
 
-/// `fitgauge correct m17 25.0131 --reason …`: a new record in place of a wrong one, which stays.
-/// The exit code is the new verdict.
+/// `fitgauge correct m17 25.0131 --reason …`: a new record for a wrong one; exits with its verdict.
 Outcome<ExitCode> run_correct(const Context& context, const CorrectOptions& options) {
   const auto measured = TRY(measured_text(options.measured));
   const std::string body =

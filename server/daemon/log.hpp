@@ -36,8 +36,7 @@ std::uint64_t log_lines_lost();
 void close_log();
 
 /// A bounded queue of lines with one thread that writes them to a file descriptor. Logging never
-/// waits for the reader: a line without room is lost and counted, and the count is logged when
-/// there is room again. Thread-safe.
+/// waits for the reader: a line without room is lost, and counted in the log later. Thread-safe.
 class LogQueue {
  public:
   /// @param descriptor stays open as long as the process: a reader that has stalled may still block

@@ -59,8 +59,7 @@ void members(auto& v, const LimitsAnswer& limits) {
 /// `25 H7`
 std::string designation_text(Length nominal_size, std::string_view class_name);
 
-/// 200 with a JSON text and its entity tag, to which the release is added: another one may compute
-/// another answer of the same tables.
+/// 200 with a JSON text and its entity tag with the release, which may compute another answer.
 Response tagged_json(std::string body, std::string etag);
 
 /// Entity tag of results from the tables: it changes with their revision.

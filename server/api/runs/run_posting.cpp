@@ -69,8 +69,7 @@ Response with_preference(Response response) {
   return std::move(response).with("Preference-Applied", "respond-async");
 }
 
-/// The answer stored for an Idempotency-Key: of a run that the caller waits for only the place,
-/// since its report never changes.
+/// The answer stored for an Idempotency-Key: of a run that is waited for only the place.
 app::Answer accepted(const app::ActiveRun& run, bool at_once) {
   app::Answer answer{.status = 201, .content_type = {}, .location = {}, .body = {}};
   answer.location = std::string(kRuns) + run.id_text();

@@ -18,8 +18,7 @@ Result<std::shared_ptr<app::ActiveRun>> start_program(const Services& services,
                                                       const interpreter::ControlPath& program,
                                                       const std::string& setup);
 
-/// POST /v1/runs: checks the order, starts the run and responds at its end, or at once with
-/// `Prefer: respond-async`.
+/// POST /v1/runs: checks the order, starts the run, responds at its end or at once, as preferred.
 void post_run(const Services& services, const Request& request, Responder responder);
 
 /// Server-Sent Events of a queued or running run: `progress` (status and blocks so far), `output`

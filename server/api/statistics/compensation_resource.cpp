@@ -163,8 +163,7 @@ void find_offset(const OffsetOrder& order, app::MeasurementService& measurements
       });
 }
 
-/// Sends the proposal at the beginning, and again when its state changes. If the values give none,
-/// it sends the reason.
+/// Sends the proposal, or why there is none, at the beginning and when its state changes.
 class OffsetStream final : public CommitStream {
  public:
   OffsetStream(const Services& services, OffsetOrder order)

@@ -43,8 +43,7 @@ inline void add_last_event_id(std::vector<Parameter>& parameters) {
                         .description = "The id of the last event that was read"});
 }
 
-/// Returns the id of the last event, if given. A browser sends the header when it connects again;
-/// it overrides the query of the first request.
+/// Returns the id of the last event, if given. The header of a browser overrides the query.
 inline std::optional<std::string_view> last_event_id(const Request& request) {
   auto named = request.text("Last-Event-ID");
   if (!named) named = request.text("last_event_id");

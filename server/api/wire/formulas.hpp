@@ -4,8 +4,7 @@
 
 namespace fitgauge::api {
 
-/// The formula of an answer and its source. docs/reference/statistics.md has all of
-/// them with their conditions.
+/// The formula of an answer and its source. docs/reference/statistics.md has all.
 struct Formula {
   std::string_view of;
   std::string_view formula;

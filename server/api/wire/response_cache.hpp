@@ -18,8 +18,7 @@ bool asks_for_revision_alone(const Request& request);
 Parameter revision_parameter();
 
 /// Answers made from the tables, serialised once per route, arguments and form, however these are
-/// spelt; dropped when the tables change. At most 4 MiB, no answer over 64 KiB. Thread-safe, shared
-/// by the routes that are given it.
+/// spelt; dropped when the tables change. At most 4 MiB, no answer over 64 KiB. Thread-safe.
 class ResponseCache {
  public:
   explicit ResponseCache(app::TableCatalog& tables) : tables_(tables) {}
