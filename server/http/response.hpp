@@ -77,9 +77,12 @@ class Connection;
 /// body.
 class ChunkSink {
  public:
-  explicit ChunkSink(std::shared_ptr<Connection> connection);
-  ChunkSink(ChunkSink&&) noexcept;
-  ChunkSink& operator=(ChunkSink&&) noexcept;
+  explicit ChunkSink(std::shared_ptr<Connection> connection) : connection_(std::move(connection)) {}
+  ChunkSink(ChunkSink&&) noexcept = default;
+  ChunkSink& operator=(ChunkSink&& other) noexcept {
+    connection_.swap(other.connection_);
+    return *this;
+  }
   ~ChunkSink();
 
   /// Sends `bytes` unless empty, and asks the stream for the next piece when they have left.
@@ -121,9 +124,12 @@ class BodyStream {
 /// Every Responder must be destroyed before its Server.
 class Responder {
  public:
-  explicit Responder(std::shared_ptr<Connection> connection);
-  Responder(Responder&&) noexcept;
-  Responder& operator=(Responder&&) noexcept;
+  explicit Responder(std::shared_ptr<Connection> connection) : connection_(std::move(connection)) {}
+  Responder(Responder&&) noexcept = default;
+  Responder& operator=(Responder&& other) noexcept {
+    connection_.swap(other.connection_);
+    return *this;
+  }
   ~Responder();
 
   void answer(Response response);

@@ -244,12 +244,6 @@ void Connection::beat(Tick now) {
   advance();
 }
 
-Responder::Responder(std::shared_ptr<Connection> connection) : connection_(std::move(connection)) {}
-Responder::Responder(Responder&&) noexcept = default;
-Responder& Responder::operator=(Responder&& other) noexcept {
-  std::swap(connection_, other.connection_);
-  return *this;
-}
 Responder::~Responder() {
   if (connection_) std::exchange(connection_, nullptr)->post_unanswered();
 }
@@ -260,12 +254,6 @@ void Responder::fail(Error error) {
   if (connection_) std::exchange(connection_, nullptr)->post_error(std::move(error));
 }
 
-ChunkSink::ChunkSink(std::shared_ptr<Connection> connection) : connection_(std::move(connection)) {}
-ChunkSink::ChunkSink(ChunkSink&&) noexcept = default;
-ChunkSink& ChunkSink::operator=(ChunkSink&& other) noexcept {
-  std::swap(connection_, other.connection_);
-  return *this;
-}
 ChunkSink::~ChunkSink() { fail(); }
 void ChunkSink::put(std::string bytes) {
   if (connection_) std::exchange(connection_, nullptr)->post_piece(std::move(bytes), false);
