@@ -65,7 +65,7 @@ Outcome<LinkClient> connect(const std::string& address,
 Transfer transfer_of(std::string_view path) {
   constexpr std::array<std::string_view, 8> kLines{".h", ".i", ".t",   ".tch",
                                                    ".d", ".p", ".tab", ".pnt"};
-  const bool is_lines = std::any_of(kLines.begin(), kLines.end(), [path](std::string_view ending) {
+  const bool is_lines = std::ranges::any_of(kLines, [path](std::string_view ending) {
     return path.size() > ending.size() &&
            ascii_iequals(path.substr(path.size() - ending.size()), ending);
   });

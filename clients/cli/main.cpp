@@ -47,8 +47,7 @@ Outcome<std::string> read_key(const CommonOptions& common) {
   std::string text = environment_variable("FITGAUGE_KEY");
   if (!common.key_file.empty()) text = TRY(read_file(common.key_file));
   const std::string_view key = trim(std::string_view(text).substr(0, text.find_first_of("\r\n")));
-  const bool printable =
-      std::all_of(key.begin(), key.end(), [](char c) { return c > ' ' && c < '\x7F'; });
+  const bool printable = std::ranges::all_of(key, [](char c) { return c > ' ' && c < '\x7F'; });
   if (printable) return std::string(key);
   return Failure{ExitCode::Usage, "the API key has a wrong character: copy it again"};
 }
@@ -91,8 +90,8 @@ int complain(const Failure& failure, bool json) {
 /// @returns none if all are known, and another error applies.
 std::optional<std::string> what_is_unknown(const CLI::App& command,
                                            const std::vector<std::string>& words) {
-  const auto option = std::find_if(words.begin(), words.end(),
-                                   [](const auto& word) { return word.starts_with("--"); });
+  const auto option =
+      std::ranges::find_if(words, [](const auto& word) { return word.starts_with("--"); });
   const bool wants_command = command.get_require_subcommand_min() > 0;
   const bool is_option = option != words.end() && (!wants_command || option == words.begin());
   if (words.empty() || (!is_option && !wants_command)) return std::nullopt;

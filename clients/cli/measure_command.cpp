@@ -28,8 +28,7 @@ std::string summary(const VerdictCounts& counts) {
 /// Returns whether the service has read the rows and stores none of them.
 bool rows_are_refused(const Answer& answer) {
   constexpr long kRefusals[] = {400, 413, 415, 422};
-  return std::find(std::begin(kRefusals), std::end(kRefusals), answer.status) !=
-         std::end(kRefusals);
+  return std::ranges::find(kRefusals, answer.status) != std::end(kRefusals);
 }
 
 /// Sends one input to the service.
