@@ -12,15 +12,15 @@ using namespace fitgauge::cli;
 
 namespace {
 
-struct Folder {
-  Folder()
+struct TestFolder {
+  TestFolder()
       : path(std::filesystem::temp_directory_path() /
              ("fitgauge-cli-" + std::to_string(getpid()))) {
     std::filesystem::create_directories(path);
   }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { std::filesystem::remove_all(path); }
+  TestFolder(const TestFolder&) = delete;
+  TestFolder& operator=(const TestFolder&) = delete;
+  ~TestFolder() { std::filesystem::remove_all(path); }
 
   std::string file(const char* name) const { return (path / name).string(); }
 
@@ -58,7 +58,7 @@ TEST_CASE("a key names the session and all that was read") {
 }
 
 TEST_CASE("the journal gives the last state") {
-  const Folder folder;
+  const TestFolder folder;
   const std::string path = folder.file("new/of/input.state");
   MeasureState state = example();
   {
@@ -76,7 +76,7 @@ TEST_CASE("the journal gives the last state") {
 }
 
 TEST_CASE("a line that was cut off by a power cut is as if it had not been begun") {
-  const Folder folder;
+  const TestFolder folder;
   const std::string path = folder.file("torn");
   MeasureState state = example();
   REQUIRE(MeasureJournal::open(path)->append(state).has_value());
@@ -89,7 +89,7 @@ TEST_CASE("a line that was cut off by a power cut is as if it had not been begun
 }
 
 TEST_CASE("two runs do not have one journal at the same time") {
-  const Folder folder;
+  const TestFolder folder;
   const auto first = MeasureJournal::open(folder.file("x"));
   REQUIRE(first.has_value());
   const auto second = MeasureJournal::open(folder.file("x"));
@@ -98,7 +98,7 @@ TEST_CASE("two runs do not have one journal at the same time") {
 }
 
 TEST_CASE("another file is not taken for a journal") {
-  const Folder folder;
+  const TestFolder folder;
   std::ofstream(folder.file("notes")) << "milk\n";
   CHECK(MeasureJournal::open(folder.file("notes")).error().exit_code == ExitCode::LocalFile);
   CHECK(*read_file(folder.file("notes")) == "milk\n");
