@@ -1,6 +1,6 @@
 #pragma once
 
-// What every file may use: parts of the standard library, fmt, results with their errors, and texts.
+// What every file may use: parts of the standard library, fmt, results and their errors, texts.
 // The build includes this file before every C++ file and compiles it once (precompiled header).
 
 #include <fmt/format.h>
