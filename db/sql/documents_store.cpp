@@ -1,6 +1,5 @@
 #include "db/store/documents_store.hpp"
 
-#include "base/text.hpp"
 #include "db/sql/sealed_table.hpp"
 #include "db/sql/statement.hpp"
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "db/sql/index_nodes.hpp"
 #include "db/sql/measurement_query.hpp"
 #include "db/sql/statement.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "db/sql/connection.hpp"
 #include "db/sql/statement.hpp"
 

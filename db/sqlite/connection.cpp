@@ -5,7 +5,6 @@
 
 #include <cerrno>
 
-#include "base/text.hpp"
 #include "db/store/canonical_digest.hpp"
 #include "db/store/stores.hpp"
 

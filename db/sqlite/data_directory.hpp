@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "base/folder.hpp"
-#include "base/result.hpp"
 #include "db/store/open_options.hpp"
 
 namespace fitgauge::store::sqlite {

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "base/result.hpp"
 #include "db/sql/sealed_table.hpp"
 #include "db/sqlite/connection.hpp"
 #include "db/store/open_options.hpp"

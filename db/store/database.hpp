@@ -3,7 +3,6 @@
 #include <filesystem>
 
 #include "base/clock.hpp"
-#include "base/result.hpp"
 #include "db/store/jobs.hpp"
 #include "db/store/open_options.hpp"
 

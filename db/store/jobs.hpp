@@ -4,7 +4,6 @@
 
 #include "base/allowance.hpp"
 #include "base/histogram.hpp"
-#include "base/result.hpp"
 #include "base/thread.hpp"
 #include "base/worker_pool.hpp"
 #include "db/store/stores.hpp"

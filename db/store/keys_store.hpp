@@ -2,7 +2,6 @@
 
 #include "base/clock.hpp"
 #include "base/digest.hpp"
-#include "base/result.hpp"
 
 namespace fitgauge::store {
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/clock.hpp"
-#include "base/result.hpp"
 #include "db/store/measurement_index.hpp"
 #include "db/store/measurement_row.hpp"
 

@@ -3,8 +3,6 @@
 #include <filesystem>
 
 #include "base/clock.hpp"
-#include "base/result.hpp"
-#include "base/text.hpp"
 #include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/clock.hpp"
-#include "base/result.hpp"
 #include "db/store/documents_store.hpp"
 #include "db/store/keys_store.hpp"
 #include "db/store/log_store.hpp"

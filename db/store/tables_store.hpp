@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/digest.hpp"
-#include "base/result.hpp"
 
 namespace fitgauge::store {
 

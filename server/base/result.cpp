@@ -1,5 +1,3 @@
-#include "base/result.hpp"
-
 namespace fitgauge {
 namespace {
 

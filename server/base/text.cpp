@@ -1,5 +1,3 @@
-#include "base/text.hpp"
-
 namespace fitgauge {
 namespace {
 

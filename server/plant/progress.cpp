@@ -1,4 +1,3 @@
-#include "base/number.hpp"
 #include "plant/log_follower.hpp"
 
 namespace fitgauge::connections {

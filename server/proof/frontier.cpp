@@ -1,8 +1,5 @@
 #include "proof/frontier.hpp"
 
-#include "base/number.hpp"
-#include "base/text.hpp"
-
 namespace fitgauge::tlog {
 namespace {
 

@@ -1,7 +1,6 @@
 #include "proof/note.hpp"
 
 #include "base/digest.hpp"
-#include "base/text.hpp"
 
 namespace fitgauge::tlog {
 namespace {

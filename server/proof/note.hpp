@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "proof/frontier.hpp"
 #include "proof/note_key.hpp"
 

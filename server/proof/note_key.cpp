@@ -4,7 +4,6 @@
 #include <openssl/rand.h>
 
 #include "base/digest.hpp"
-#include "base/text.hpp"
 
 namespace fitgauge::tlog {
 namespace {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
-
 struct evp_pkey_st;
 
 namespace fitgauge::tlog {

@@ -1,6 +1,5 @@
 #include "record/measurement.hpp"
 
-#include "base/text.hpp"
 #include "record/origins.hpp"
 
 namespace fitgauge::app {

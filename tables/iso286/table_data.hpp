@@ -1,7 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
-#include "base/text.hpp"
 #include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::iso286 {

@@ -1,6 +1,5 @@
 #include "tables/iso286/table_data.hpp"
 
-#include "base/text.hpp"
 #include "tables/compiled_in.hpp"
 #include "tables/iso286/derivation.hpp"
 #include "tables/iso286/tolerance_class.hpp"

@@ -2,8 +2,6 @@
 
 #include <cassert>
 
-#include "base/text.hpp"
-
 namespace fitgauge::iso286 {
 namespace {
 

@@ -1,6 +1,5 @@
 #include "tables/iso286/tolerance_tables.hpp"
 
-#include "base/text.hpp"
 #include "tables/iso286/derivation.hpp"
 
 namespace fitgauge::iso286 {

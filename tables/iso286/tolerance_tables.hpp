@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "tables/iso286/table_data.hpp"
 #include "tables/iso286/tolerance_class.hpp"
 

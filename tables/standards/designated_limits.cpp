@@ -1,7 +1,5 @@
 #include "tables/standards/designated_limits.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::standards {
 namespace {
 

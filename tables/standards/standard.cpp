@@ -1,8 +1,6 @@
 #include "tables/standards/standard.hpp"
 
 #include "base/digest.hpp"
-#include "base/number.hpp"
-#include "base/text.hpp"
 #include "tables/compiled_in.hpp"
 
 namespace fitgauge::standards {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/length.hpp"
-#include "base/result.hpp"
 
 namespace fitgauge::standards {
 

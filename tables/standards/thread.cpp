@@ -1,4 +1,3 @@
-#include "base/text.hpp"
 #include "tables/standards/designated_limits.hpp"
 #include "tables/standards/standard.hpp"
 

@@ -1,6 +1,5 @@
 #include "tables/tabfile/tab_table.hpp"
 
-#include "base/text.hpp"
 #include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::tabfile {

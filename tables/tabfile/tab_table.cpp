@@ -2,7 +2,6 @@
 
 #include <cassert>
 
-#include "base/text.hpp"
 #include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::tabfile {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/allowance.hpp"
-#include "base/result.hpp"
 
 namespace fitgauge::tabfile {
 

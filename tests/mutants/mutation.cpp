@@ -3,7 +3,6 @@
 #include <cctype>
 #include <regex>
 
-#include "base/text.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/program/cycles.hpp"
 

@@ -1,6 +1,5 @@
 #include <qrencode.h>
 
-#include "base/text.hpp"
 #include "formats/certificate/certificate.hpp"
 
 namespace fitgauge::certificate {

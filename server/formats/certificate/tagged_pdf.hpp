@@ -2,8 +2,6 @@
 
 #include <unordered_map>
 
-#include "base/result.hpp"
-
 namespace fitgauge::certificate {
 
 /// Returns the character at `at`, and moves `at` after it. @pre at < text.size()

@@ -1,7 +1,5 @@
 #include "formats/dfq/dfq_writer.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::aqdef {
 namespace {
 

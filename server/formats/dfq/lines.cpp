@@ -1,7 +1,5 @@
 #include "formats/dfq/lines.hpp"
 
-#include "base/text.hpp"
-
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #endif

@@ -1,7 +1,5 @@
 #include "formats/dfq/measurement_csv.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::aqdef {
 namespace {
 

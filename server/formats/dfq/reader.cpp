@@ -1,7 +1,5 @@
 #include "formats/dfq/reader.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::aqdef {
 namespace {
 

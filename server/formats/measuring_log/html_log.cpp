@@ -1,4 +1,3 @@
-#include "base/text.hpp"
 #include "formats/measuring_log/measuring_log.hpp"
 
 namespace fitgauge::log_reader {

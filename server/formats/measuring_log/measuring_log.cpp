@@ -1,6 +1,5 @@
 #include "formats/measuring_log/measuring_log.hpp"
 
-#include "base/text.hpp"
 #include "formats/sheet/text_encoding.hpp"
 
 namespace fitgauge::log_reader {

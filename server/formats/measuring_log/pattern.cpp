@@ -2,7 +2,6 @@
 
 #include <fmt/ranges.h>
 
-#include "base/text.hpp"
 #include "formats/sheet/text_encoding.hpp"
 
 namespace fitgauge::log_reader {

@@ -5,7 +5,6 @@
 
 #include <cerrno>
 
-#include "base/text.hpp"
 #include "formats/dfq/lines.hpp"
 
 namespace fitgauge::qif {

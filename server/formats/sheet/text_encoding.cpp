@@ -1,7 +1,5 @@
 #include "formats/sheet/text_encoding.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::sheet {
 namespace {
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
-
 namespace fitgauge {
 
 /// Fills the span from its front; 0 at the end of the input.

@@ -3,7 +3,6 @@
 #include <filesystem>
 
 #include "base/folder.hpp"
-#include "base/text.hpp"
 
 namespace fitgauge::sheet {
 namespace {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/text.hpp"
 #include "formats/step/part21.hpp"
 
 namespace fitgauge::step {

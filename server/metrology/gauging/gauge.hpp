@@ -1,8 +1,6 @@
 #pragma once
 
 #include "base/length.hpp"
-#include "base/result.hpp"
-#include "base/text.hpp"
 #include "metrology/gauging/conformance.hpp"
 #include "tables/iso286/tolerance_class.hpp"
 

@@ -1,7 +1,5 @@
 #include "metrology/statistics/compensation.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::metrology {
 namespace {
 

@@ -1,6 +1,5 @@
 #include "metrology/statistics/control_chart.hpp"
 
-#include "base/text.hpp"
 #include "metrology/statistics/summary.hpp"
 
 namespace fitgauge::metrology {

@@ -2,8 +2,6 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include "base/result.hpp"
-
 namespace fitgauge::metrology {
 
 /// Whole numbers of any size and their fractions, without expression templates. Sums, differences

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/length.hpp"
-#include "base/result.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::metrology {

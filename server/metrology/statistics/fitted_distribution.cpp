@@ -1,4 +1,3 @@
-#include "base/text.hpp"
 #include "metrology/statistics/capability.hpp"
 
 #include "metrology/statistics/process_model.hpp"

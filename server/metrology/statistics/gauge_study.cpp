@@ -1,6 +1,5 @@
 #include "metrology/statistics/gauge_study.hpp"
 
-#include "base/text.hpp"
 #include "metrology/statistics/summary.hpp"
 #include "metrology/statistics/zone_rules.hpp"
 

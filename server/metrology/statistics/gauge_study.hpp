@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "metrology/statistics/process_model.hpp"
 #include "metrology/statistics/summary.hpp"
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
 #include "tables/standards/standard.hpp"
 

@@ -1,7 +1,6 @@
 #include "metrology/statistics/uncertainty.hpp"
 
 #include "base/allowance.hpp"
-#include "base/text.hpp"
 #include "metrology/statistics/summary.hpp"
 
 namespace fitgauge::metrology {

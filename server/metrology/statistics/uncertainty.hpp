@@ -1,7 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
-
 namespace fitgauge::metrology {
 
 /// The shapes of a contribution (JCGM 100, 4.3; JCGM 101, table 1). U-shaped is the arcsine.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/text.hpp"
 #include "nc/klartext/expression.hpp"
 
 namespace fitgauge::klartext {

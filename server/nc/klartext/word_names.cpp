@@ -1,7 +1,5 @@
 #include "nc/klartext/word_names.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::klartext {
 namespace {
 

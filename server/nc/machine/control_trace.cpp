@@ -1,4 +1,3 @@
-#include "base/text.hpp"
 #include "nc/machine/control.hpp"
 
 namespace fitgauge::machine {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "nc/machine/machine_state.hpp"
 
 namespace fitgauge::machine {

@@ -1,7 +1,5 @@
 #include "nc/machine/machine_state.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::machine {
 
 double MachineState::tool_length() const {

@@ -1,7 +1,5 @@
 #include "nc/machine/triangle_tree.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::machine {
 namespace {
 

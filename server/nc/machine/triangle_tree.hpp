@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "nc/machine/box_tree.hpp"
 
 namespace fitgauge::machine {

@@ -2,8 +2,6 @@
 
 #include <cassert>
 
-#include "base/result.hpp"
-#include "base/text.hpp"
 #include "log_templates.hpp"
 #include "nc/probing/arguments.hpp"
 #include "nc/probing/cycle_fault.hpp"

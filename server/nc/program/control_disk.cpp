@@ -1,7 +1,5 @@
 #include "nc/program/control_disk.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::interpreter {
 namespace {
 

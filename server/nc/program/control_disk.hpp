@@ -1,7 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
-
 namespace fitgauge::tabfile {
 class TabTable;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/number.hpp"
 #include "nc/program/diagnose.hpp"
 
 namespace fitgauge::interpreter {

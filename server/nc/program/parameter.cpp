@@ -1,6 +1,5 @@
 #include "nc/program/parameter.hpp"
 
-#include "base/number.hpp"
 #include "nc/machine/geometry.hpp"
 #include "tables/tabfile/characters.hpp"
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/syntax.hpp"
 #include "nc/machine/tolerance.hpp"

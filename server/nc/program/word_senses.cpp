@@ -1,7 +1,5 @@
 #include "nc/program/word_senses.hpp"
 
-#include "base/text.hpp"
-
 namespace fitgauge::interpreter {
 namespace {
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "nc/probing/cycle_fault.hpp"
 
 namespace fitgauge::interpreter {

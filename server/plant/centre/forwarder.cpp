@@ -1,9 +1,8 @@
 #include "plant/centre/forwarder.hpp"
 
+#include "base/folder.hpp"
 #include "base/gzip.hpp"
 #include "base/json/json_value.hpp"
-#include "base/number.hpp"
-#include "base/regular_file.hpp"
 #include "service/log/station_texts.hpp"
 
 namespace fitgauge::forwarder {

@@ -8,7 +8,6 @@
 
 #include "base/digest.hpp"
 #include "base/folder.hpp"
-#include "base/result.hpp"
 #include "formats/dfq/description.hpp"
 #include "formats/sheet/shop_csv.hpp"
 #include "formats/sheet/text_encoding.hpp"

@@ -1,7 +1,6 @@
 #include "api/measurements/measurement_file.hpp"
 #include "api/measurements/measurement_listing.hpp"
 #include "base/folder.hpp"
-#include "base/text.hpp"
 #include "formats/dfq/dfq_writer.hpp"
 #include "plant/kind.hpp"
 #include "record/record.hpp"

@@ -4,7 +4,6 @@
 
 #include "api/resources.hpp"
 #include "api/services.hpp"
-#include "base/result.hpp"
 #include "http/route.hpp"
 #include "service/measurements/measurement_service.hpp"
 

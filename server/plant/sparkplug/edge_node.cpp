@@ -2,8 +2,6 @@
 
 #include <sparkplug/sparkplug_wire.pb.h>
 
-#include "base/number.hpp"
-
 namespace fitgauge::connections {
 namespace {
 

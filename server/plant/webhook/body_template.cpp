@@ -2,7 +2,6 @@
 
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
-#include "base/text.hpp"
 
 namespace fitgauge::connections {
 namespace {

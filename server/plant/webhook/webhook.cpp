@@ -5,7 +5,6 @@
 
 #include "base/digest.hpp"
 #include "base/json/json_writer.hpp"
-#include "base/text.hpp"
 #include "http/client/http_client.hpp"
 #include "plant/kind.hpp"
 #include "record/record.hpp"

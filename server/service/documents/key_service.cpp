@@ -1,7 +1,6 @@
 #include "service/documents/key_service.hpp"
 
 #include "base/json/json_writer.hpp"
-#include "base/text.hpp"
 #include "db/store/database.hpp"
 #include "service/log/changes.hpp"
 

@@ -1,6 +1,5 @@
 #include "service/files/file_service.hpp"
 
-#include "base/text.hpp"
 #include "db/store/database.hpp"
 #include "db/store/stores.hpp"
 #include "service/documents/document_service.hpp"

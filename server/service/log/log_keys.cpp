@@ -3,8 +3,7 @@
 #include <fstream>
 
 #include "base/digest.hpp"
-#include "base/regular_file.hpp"
-#include "base/text.hpp"
+#include "base/folder.hpp"
 #include "db/sqlite/data_directory.hpp"
 
 namespace fitgauge::app {

@@ -1,6 +1,5 @@
 #include <sstream>
 
-#include "base/text.hpp"
 #include "db/store/database.hpp"
 #include "service/log/changes.hpp"
 #include "service/log/log_keys.hpp"

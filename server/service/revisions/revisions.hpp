@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
 #include "db/store/log_store.hpp"
 #include "record/measurement.hpp"
 #include "service/documents/key_service.hpp"

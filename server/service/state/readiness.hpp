@@ -1,7 +1,5 @@
 #pragma once
 
-#include "base/result.hpp"
-
 namespace fitgauge::app {
 
 /// Whether the service may be used, and the activity of the database.

@@ -4,7 +4,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/text.hpp"
 #include "golden_setup.hpp"
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/probing/cycle_descriptor.hpp"

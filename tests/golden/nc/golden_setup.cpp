@@ -2,8 +2,6 @@
 
 #include <sstream>
 
-#include "base/text.hpp"
-
 namespace fitgauge::interpreter::golden {
 namespace {
 

@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include "base/result.hpp"
-
 using namespace fitgauge;
 
 TEST_CASE("every error code has a stable id of its own and a title") {

@@ -1,5 +1,3 @@
-#include "base/text.hpp"
-
 #include <doctest/doctest.h>
 
 using namespace fitgauge;

@@ -8,8 +8,6 @@
 
 #include <cerrno>
 
-#include "base/number.hpp"
-
 namespace fitgauge::control_link {
 namespace {
 

@@ -7,8 +7,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "base/text.hpp"
-
 namespace fitgauge::http::test {
 
 namespace {

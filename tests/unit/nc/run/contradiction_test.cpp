@@ -4,7 +4,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/text.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/program/cycles.hpp"
 #include "run_fixture.hpp"
