@@ -1,4 +1,3 @@
-
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_listing.hpp"
 #include "api/statistics/statistics_answers.hpp"

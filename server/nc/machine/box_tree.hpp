@@ -49,8 +49,8 @@ class BoxTree {
   /// Bounds of all triangles. @pre not empty.
   const Box& all() const { return nodes_.front().box; }
 
-  /// Calls visit(begin, end) for leaves with boxes nearer than the root of `squared`, which it may
-  /// reduce, the nearer child first.
+  /// Calls visit(begin, end) for leaves with boxes not farther than the root of `squared`, which it
+  /// may reduce, the nearer child first.
   template <class Visit>
   void near(const Vec3& at, const double& squared, const Visit& visit) const {
     nearest_first([&at](const Box& box) { return std::optional(box.squared_distance(at)); },
@@ -136,6 +136,7 @@ class BoxTree {
       push(in_order ? next.index + 1 : node.second, in_order ? first : second);
     }
   }
+
   void build(const std::vector<Box>& boxes, std::vector<Item>& items, std::uint32_t begin,
              std::uint32_t end);
 

@@ -2,7 +2,8 @@
 
 namespace fitgauge::machine {
 
-/// The kinds of all failures below; those of a machine say what it could not do.
+/// Why a command, a cycle or a run ended. The first four end a run so; the others are what a
+/// machine could not do, and end it as Error does.
 enum class FaultKind : std::uint8_t {
   Error,      ///< of the program: the run fails
   Stop,       ///< the run ends as the operator wants it (on_stop) or as Q309 asks for

@@ -6,10 +6,9 @@
 
 namespace fitgauge::interpreter {
 
-using machine::Axis, machine::AxisWords, machine::CoordinateSystem, machine::kAllAxes,
-    machine::kAxes, machine::Machine, machine::Matrix3, machine::Feed, machine::Frames,
-    machine::MachineState, machine::Modes, machine::Position, machine::RotaryAxis, machine::Tool,
-    machine::Vec3;
+using machine::Axis, machine::AxisWords, machine::CoordinateSystem, machine::Feed, machine::Frames,
+    machine::kAllAxes, machine::kAxes, machine::Machine, machine::MachineState, machine::Matrix3,
+    machine::Modes, machine::Position, machine::RotaryAxis, machine::Tool, machine::Vec3;
 
 /// One positioning block as geometry: its curve in a plane and the axes it names, absolute, in mm
 /// and degrees.

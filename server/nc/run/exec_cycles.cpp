@@ -20,8 +20,8 @@ class MovedByCycle {
 };
 
 /// The interface of touch-probe cycles to the program. Results go to Q parameters in the unit of
-/// the current program. Failures that a cycle's result cannot report (an exceeded budget) are
-/// stored for `failure`.
+/// the current program. Failures of functions without a result are stored for
+/// `failure`.
 class ChannelCycleHost final : public probing::CycleHost {
  public:
   explicit ChannelCycleHost(Channel& channel) : channel_(channel) {}

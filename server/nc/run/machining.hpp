@@ -134,7 +134,6 @@ NcResult<void> check_values(const MachiningDefinition& definition);
 NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definition);
 
 // machining_arguments.cpp
-class Channel;
 
 /// The value of a cycle parameter in mm, mm/min and degrees; MAX is infinity, AUTO the feed of TOOL
 /// CALL, a text if the parameter accepts one. @errors decision 3.

@@ -166,7 +166,6 @@ class Positioning {
       if (!pole.plane.contains(axis)) {
         return nc_error(
             1019,
-
             "the {} axis is not in the plane of the circle: write both axes of the plane in CC",
             "XYZ"[axis]);
       }

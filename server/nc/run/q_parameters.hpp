@@ -6,8 +6,9 @@
 namespace fitgauge::interpreter {
 
 /// The cells of a program's code, and the strings. Q, QR and QS belong to the control and outlive
-/// programs; QL, constants, counters and temporaries belong to the current program (code.hpp has
-/// the layout). An undefined parameter is a NaN; a defined one is finite. Not thread-safe.
+/// programs; QL, constants, counters and temporaries belong to the current program
+/// (linked_program.hpp has the layout). An undefined parameter is a NaN; a defined one is finite.
+/// Not thread-safe.
 class QParameters {
  public:
   QParameters();

@@ -279,7 +279,7 @@ CycleResult<void> PresetAtSphere::check(const CycleContext& context) const {
   const Preset* row = state.presets.find(state.active_preset);
   if ((!sets_before_ && !sets_after_) || row == nullptr || !row->locked) return {};
   return make_fault(machine::FaultKind::PresetLocked,
-                                 fmt::format("the active preset {}", row->number));
+                    fmt::format("the active preset {}", row->number));
 }
 
 CycleResult<void> PresetAtSphere::before(const CycleContext& context,

@@ -123,11 +123,11 @@ CycleResult<void> KinematicsProbing::go_over(const Vec3& sphere) {
 
 CycleResult<Vec3> KinematicsProbing::touch(const Vec3& direction) {
   const auto contact = TRY(context_.machine.probe({.direction = direction,
-                                                        .distance = probe_.data.distance,
-                                                        .feed = probe_.data.feed,
-                                                        .system = CoordinateSystem::Machine,
-                                                        .retract = std::nullopt,
-                                                        .retract_feed = feed()}));
+                                                   .distance = probe_.data.distance,
+                                                   .feed = probe_.data.feed,
+                                                   .system = CoordinateSystem::Machine,
+                                                   .retract = std::nullopt,
+                                                   .retract_feed = feed()}));
   publish_touch(state(), context_.host, contact);
   return contact.tip_machine + tool_direction() * probe_.radius;
 }
