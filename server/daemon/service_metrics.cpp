@@ -88,7 +88,7 @@ void write_application_metrics(app::Application& app, api::Exposition& out) {
                 "Time of a transaction from its begin to the disk")
       .sample(counters.commit_seconds);
   out.counter("fitgauge_writer_failures_total", "Commits and maintenance steps that failed")
-      .sample(counters.failed_commits);
+      .sample(counters.failed_commits.load());
   out.gauge("fitgauge_event_readers", "Open streams of /v1/events, and outgoing connections")
       .sample(app.events().readers());
   const app::RunService::Counts runs = app.runs().counts();
@@ -129,7 +129,7 @@ void write_storage_metrics(const app::Application& app, const fs::path& folder,
   if (has_files)
     out.sample(static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize));
   out.gauge("fitgauge_wal_pages", "Pages in the write-ahead log after the last commit");
-  if (has_files) out.sample(database.writer().counters().log_pages);
+  if (has_files) out.sample(database.writer().counters().log_pages.load());
   out.gauge("fitgauge_database_bytes", "Size of the database");
   if (server) out.sample(server->database_bytes, {{"file", "database"}});
   if (!has_files) return;
