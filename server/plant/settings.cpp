@@ -98,6 +98,7 @@ bool FilterForm::read(api::FieldReader& fields, std::string_view name, LogFilter
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = {
 #define FITGAUGE_KIND(kind, folder) kind##_kind(),
+#include "plant_kinds.inc"
 #undef FITGAUGE_KIND
   };
   return all;
