@@ -23,7 +23,7 @@ def one_of(names):
 
 def grammar():
     blocks = words("parser_block.cpp", r'^ *\{"(\w+)",', "kBlockKeywords", r"\n\};")
-    absent = words("parser_block.cpp", r'^ *\{"(\w+)",', "kFeatures", r"\n\};")
+    absent = words("parser_block.cpp", r'"([A-Z]+)[" ]', r"kContourWords", r"\n\n")
     letters = words("letters.inc", r'^FITGAUGE_LETTER\(\w+, "(\w+)"\)')
     operators = words("operator_names.hpp", r'"(\w+)"')
     block = rf"^(\s*/?\s*)(N?\d+(?=\s))?\s*(?:({one_of(absent)})|({one_of([*blocks, 'ERROR'])}))(?![A-Z_])"
