@@ -215,8 +215,9 @@ void write_body(JsonWriter& json, const T& body) {
   BodyWriter write(json);
   if constexpr (requires { members(write, body); }) {
     members(write, body);
-  } else {  // described for a reader too; a writer changes no variable
-    members(write, const_cast<T&>(body));
+  } else {  // described for a reader too
+    T copy = body;
+    members(write, copy);
   }
   json.end_object();
 }
