@@ -56,9 +56,10 @@ void members(auto& v, CsvPosition& place) {
 void members(auto& v, MeasureState& state) {
   v.member("server", state.server);
   v.member("session", state.session);
-  v.member("stored", state.stored);
+  // A newer version may have more members, in the inner objects too.
+  v.member("stored", state.stored, api::Object<CsvPosition>({}, api::schema::Others::Allowed));
   v.member("pending", state.pending, PlaceOrNull{});
-  v.member("verdicts", state.counts);
+  v.member("verdicts", state.counts, api::Object<VerdictCounts>({}, api::schema::Others::Allowed));
   v.member("complete", state.complete);
 }
 

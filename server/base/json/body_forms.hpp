@@ -16,13 +16,14 @@ struct Nested {
   static constexpr bool kHasDefault = false;
   std::string_view component;
   Members describe;
+  schema::Others others = schema::Others::Refused;  ///< members that it does not name
 
   std::string schema(Side) const { return schema::ref(component); }
   void read_item(const JsonValue& item, std::string pointer, FieldErrors& errors, auto& to) const {
     BodyReader v(item, std::move(pointer), errors);
     if (!item.is(JsonValue::Kind::Object)) return;
     describe(v, to);
-    v.end();
+    if (others == schema::Others::Refused) v.end();
   }
   bool read(FieldReader& fields, std::string_view name, auto& to) const {
     const JsonValue* object = fields.object(name);
@@ -39,7 +40,8 @@ struct MembersOf {
 /// A body within a body; without a component its schema is written in place.
 template <class T>
 struct Object : Nested<MembersOf> {
-  constexpr Object(std::string_view name = {}) : Nested{name, {}} {}
+  constexpr Object(std::string_view name = {}, schema::Others known = schema::Others::Refused)
+      : Nested{name, {}, known} {}
 
   std::string schema(Side side) const {
     return component.empty() ? schema_of<T>(side) : schema::ref(component);
