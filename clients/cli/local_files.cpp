@@ -78,9 +78,10 @@ int open_directly(const fs::path& path) {
 }  // namespace
 
 Outcome<InputFile> InputFile::open(const std::string& path) {
-  if (path == "-") return InputFile("standard input", dup(STDIN_FILENO));
-  InputFile input(path, ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!input.file_.is_open()) return failed(path, "open it");
+  InputFile input = path == "-"
+                        ? InputFile("standard input", fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0))
+                        : InputFile(path, ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!input.file_.is_open()) return failed(input.name_, "open it");
   return input;
 }
 
