@@ -1,4 +1,4 @@
-#include "cli/address.hpp"
+#include "cli/http_client.hpp"
 
 namespace fitgauge::cli {
 namespace {

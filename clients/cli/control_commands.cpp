@@ -1,5 +1,4 @@
 #include "base/clock.hpp"
-#include "cli/address.hpp"
 #include "cli/commands.hpp"
 #include "cli/local_files.hpp"
 #include "plant/lsv2/link/link_client.hpp"

@@ -1,4 +1,4 @@
-#include "cli/folder_disk.hpp"
+#include "cli/nc_commands.hpp"
 
 #include "cli/local_files.hpp"
 #include "service/runs/control_files.hpp"

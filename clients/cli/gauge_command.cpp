@@ -7,7 +7,6 @@
 #include <regex>
 
 #include "base/folder.hpp"
-#include "cli/address.hpp"
 #include "cli/commands.hpp"
 #include "record/measurement_row_reader.hpp"
 

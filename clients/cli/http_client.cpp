@@ -2,8 +2,6 @@
 
 #include <random>
 
-#include "cli/address.hpp"
-#include "cli/problem.hpp"
 #include "http/client/http_client.hpp"
 
 namespace fitgauge::cli {

@@ -1,8 +1,6 @@
 #include "cli/answers.hpp"
 
-#include "cli/address.hpp"
 #include "cli/commands.hpp"
-#include "cli/tolerance_zones.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -1,7 +1,6 @@
 #include "cli/nc_commands.hpp"
 
 #include "api/runs/run_codec.hpp"
-#include "cli/address.hpp"
 #include "cli/local_files.hpp"
 #include "nc/iso/parser.hpp"
 #include "nc/iso/printer.hpp"

@@ -1,14 +1,9 @@
 #include <filesystem>
 
 #include "api/runs/run_codec.hpp"
-#include "cli/address.hpp"
-#include "cli/folder_disk.hpp"
 #include "cli/local_files.hpp"
 #include "cli/nc_commands.hpp"
 #include "nc/program/diagnose.hpp"
-#include "nc/program/program_cache.hpp"
-#include "service/runs/active_run.hpp"
-#include "service/runs/control_files.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -5,7 +5,6 @@
 #include <csignal>
 #include <cstdio>
 
-#include "cli/address.hpp"
 #include "cli/commands.hpp"
 #include "cli/local_files.hpp"
 
@@ -120,7 +119,8 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("{}{} see {} --help", what, what.ends_with('?') ? "" : ";", name);
 }
 
-/// Fills closed standard descriptors: otherwise the next socket would take their place.
+/// Fills closed standard descriptors with one that is neither read nor written (O_PATH): otherwise
+/// the next socket would take their place.
 void occupy_standard_descriptors() {
   int opened = 0;
   while (opened >= 0 && opened <= STDERR_FILENO) opened = ::open("/", O_PATH);

@@ -4,7 +4,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/local_files.hpp"
-#include "cli/row_input.hpp"
+#include "formats/sheet/shop_csv.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -41,14 +41,14 @@ class Upload {
         journal_(std::move(journal)) {}
 
   Outcome<ExitCode> run() {
-    auto chunks = find_place();
-    if (!chunks) return chunks.error();
-    auto chunk = state_.pending ? pending_chunk(*chunks) : chunks->next();
+    auto chunks = TRY(find_place());
+    auto chunk = state_.pending ? pending_chunk(chunks) : chunks.next();
     while (chunk && *chunk) {
-      // The next rows of a file are read while the service stores these; a pipe may wait.
+      // While the service stores these, the next rows of a file are read; a pipe may keep one
+      // waiting.
       auto upcoming = std::async(reads_ahead_ ? std::launch::async : std::launch::deferred,
-                                 [&chunks] { return chunks->next(); });
-      TRY(send(*chunks, **chunk));
+                                 [&chunks] { return chunks.next(); });
+      TRY(send(chunks, **chunk));
       chunk = upcoming.get();
     }
     if (!chunk) return chunk.error();
@@ -58,14 +58,14 @@ class Upload {
  private:
   Outcome<CsvChunks> open_input() {
     if (RowInput::is_one(options_)) return open_rows();
-    auto opened = TRY(InputFile::open(options_.input));
-    const auto file = std::make_shared<InputFile>(std::move(opened));
+    const auto file = std::make_shared<InputFile>(TRY(InputFile::open(options_.input)));
     progress_.bytes_in_all = file->size();
     reads_ahead_ = progress_.bytes_in_all.has_value();
     return begin_chunks([file](std::span<char> into) { return file->read(into); });
   }
 
-  /// Opens the rows as the service accepts them. Equal rows become equal text.
+  /// Opens the rows as the service accepts them, for files of any size. Equal rows become equal
+  /// text, even if the file grows.
   Outcome<CsvChunks> open_rows() {
     const bool is_ndjson = sheet::is_ndjson(options_.input);
     if (is_ndjson && is_converted(options_)) {
@@ -73,8 +73,7 @@ class Upload {
                      "--map, --set, --encoding, --time-zone and --leave-out-others are for tables: "
                      "remove them for NDJSON"};
     }
-    auto opened = TRY(RowInput::open(context_, options_));
-    const auto input = std::make_shared<RowInput>(std::move(opened));
+    const auto input = std::make_shared<RowInput>(TRY(RowInput::open(context_, options_)));
     // Requests for limits must wait while rows are on their way to the service.
     reads_ahead_ = RowInput::keeps_lines(options_) && options_.input != "-";
     const auto read = [input](std::span<char> into) { return input->read(into); };

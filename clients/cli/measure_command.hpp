@@ -119,7 +119,8 @@ void members(auto& v, VerdictCounts& counts) {
   v.member("rework", counts.rework);
   v.member("reject", counts.reject);
   v.member("indeterminate", counts.indeterminate);
-  v.optional("unjudged", counts.unjudged);  // absent in an answer without such values
+  // Absent in an answer without such values, and in the state of an older version.
+  v.optional("unjudged", counts.unjudged);
 }
 
 /// Progress of storing the rows of one input.
@@ -197,6 +198,37 @@ struct MeasureOptions {
   bool again = false;
   bool exit_verdict = false;  ///< the exit code is the worst verdict
 };
+
+/// Converts a DFQ, a QIF, NDJSON or a table of the shop for the service, in bounded memory.
+class RowInput {
+ public:
+  struct State;
+  explicit RowInput(std::shared_ptr<State> state) : state_(std::move(state)) {}
+
+  /// Returns whether the input is a table, by its name and options.
+  static bool is_one(const MeasureOptions& options);
+  /// Returns whether line numbers refer to the file.
+  static bool keeps_lines(const MeasureOptions& options);
+
+  /// @param context and options outlive it. @errors Usage, LocalFile
+  static Outcome<RowInput> open(const Context& context, const MeasureOptions& options);
+
+  /// The next bytes of the rows; 0 at the end. @errors LocalFile: the file is wrong, with its line.
+  Outcome<std::size_t> read(std::span<char> into);
+
+  /// Returns the line of the file for a line of the CSV: reads the file again up to there.
+  static std::uint64_t line_of(const Context& context, const MeasureOptions& options,
+                               std::uint64_t csv_line);
+
+ private:
+  /// The next rows. @returns false at the end.
+  Outcome<bool> fill();
+
+  std::shared_ptr<State> state_;
+};
+
+/// Whether the options are for a table of the shop.
+bool is_converted(const MeasureOptions& options);
 
 /// Returns one line for each bad field of a chunk, with the line of the input: `night.csv:17:
 /// measured_mm: …`. @param line_of converts a line of the body to a line of the input

@@ -1,13 +1,9 @@
 #include "cli/open_programs.hpp"
 
-#include "cli/address.hpp"
-#include "cli/folder_disk.hpp"
 #include "cli/local_files.hpp"
+#include "cli/nc_commands.hpp"
 #include "http/engine/request_head.hpp"
 #include "nc/iso/parser.hpp"
-#include "nc/klartext/syntax.hpp"
-#include "nc/program/parameter.hpp"
-#include "nc/program/program_cache.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -2,9 +2,6 @@
 
 #include <filesystem>
 
-#include "nc/klartext/diagnostic.hpp"
-#include "nc/klartext/syntax.hpp"
-#include "nc/probing/cycle_descriptor.hpp"
 #include "nc/program/program_cache.hpp"
 
 /// The knowledge of the language server about a place of a program, in either dialect.

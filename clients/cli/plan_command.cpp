@@ -1,4 +1,3 @@
-#include "cli/address.hpp"
 #include "cli/answers.hpp"
 #include "cli/commands.hpp"
 #include "formats/step/drawing.hpp"

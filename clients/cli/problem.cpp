@@ -1,4 +1,4 @@
-#include "cli/problem.hpp"
+#include "cli/http_client.hpp"
 
 namespace fitgauge::cli {
 namespace {

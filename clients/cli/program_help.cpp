@@ -9,8 +9,6 @@
 #include "nc/klartext/parser_rules.hpp"
 #include "nc/klartext/printer.hpp"
 #include "nc/probing/cycles.hpp"
-#include "nc/program/cycles.hpp"
-#include "nc/program/parameter.hpp"
 
 namespace fitgauge::cli {
 namespace {

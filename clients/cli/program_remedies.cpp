@@ -1,8 +1,6 @@
 #include "cli/open_programs.hpp"
 
 #include "nc/klartext/parser_rules.hpp"
-#include "nc/program/cycles.hpp"
-#include "nc/program/parameter.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -1,9 +1,7 @@
-#include "cli/record_commands.hpp"
+#include "cli/commands.hpp"
 
-#include "cli/address.hpp"
 #include "cli/answers.hpp"
 #include "cli/local_files.hpp"
-#include "cli/watch_command.hpp"
 
 namespace fitgauge::cli {
 

@@ -1,6 +1,5 @@
 #include "cli/nc_commands.hpp"
 
-#include "cli/address.hpp"
 #include "cli/answers.hpp"
 #include "cli/local_files.hpp"
 #include "formats/measuring_log/measuring_log.hpp"

@@ -1,11 +1,29 @@
-#include "cli/row_input.hpp"
+#include "cli/measure_command.hpp"
 
-#include "cli/address.hpp"
 #include "cli/local_files.hpp"
 #include "formats/dfq/measurement_csv.hpp"
 #include "formats/qif/qif.hpp"
 
 namespace fitgauge::cli {
+
+struct RowInput::State {
+  std::string name;
+  std::variant<aqdef::MeasurementCsv, qif::QifRows, sheet::ShopRows, sheet::NdjsonRows> source;
+  std::string rows{};  ///< of which `taken` bytes are read
+  std::size_t taken = 0;
+  std::vector<std::uint32_t> lines{};
+
+  template <class Source>
+  State(std::string file, Source from) : name(std::move(file)), source(std::move(from)) {
+    if constexpr (requires { source_of<Source>().header(); }) rows = source_of<Source>().header();
+  }
+
+  template <class Source>
+  Source& source_of() {
+    return std::get<Source>(source);
+  }
+};
+
 namespace {
 
 /// The tables are the service's.
@@ -17,11 +35,9 @@ aqdef::LimitsOfClass limits_by(const Context& context) {
     if (!answer) return Error{ErrorCode::ClassUnknown, answer.error().message};
     const auto document = context.document_of(*answer);
     if (!document) return Error{ErrorCode::ClassUnknown, document.error().message};
-    const auto upper = parse_length_mm(document->text_of("upper_limit_mm"));
-    const auto lower = parse_length_mm(document->text_of("lower_limit_mm"));
-    if (!upper) return upper.error();
-    if (!lower) return lower.error();
-    return aqdef::SizeLimits{.upper = *upper, .lower = *lower};
+    const auto upper = TRY(parse_length_mm(document->text_of("upper_limit_mm")));
+    const auto lower = TRY(parse_length_mm(document->text_of("lower_limit_mm")));
+    return aqdef::SizeLimits{.upper = upper, .lower = lower};
   };
 }
 
@@ -51,11 +67,6 @@ Read reading_again(const std::shared_ptr<InputFile>& file) {
   };
 }
 
-Outcome<std::shared_ptr<InputFile>> shared(Outcome<InputFile> opened) {
-  if (!opened) return opened.error();
-  return std::make_shared<InputFile>(*std::move(opened));
-}
-
 /// `name=text`. @errors Usage
 Outcome<sheet::Words> read_words(std::string_view option, const std::vector<std::string>& texts) {
   sheet::Words words;
@@ -68,25 +79,75 @@ Outcome<sheet::Words> read_words(std::string_view option, const std::vector<std:
   return words;
 }
 
+/// Settings of a table or a DFQ from the options. @errors Usage
+Outcome<sheet::ShopCsvOptions> table_options(const MeasureOptions& options) {
+  sheet::ShopCsvOptions table{.leaves_out_others = options.leave_out_others};
+  table.columns = TRY(read_words("--map", options.columns));
+  table.constants = TRY(read_words("--set", options.constants));
+  if (!options.encoding.empty()) {
+    const auto encoding = sheet::encoding_from_word(options.encoding);
+    if (!encoding) {
+      return Failure{ExitCode::Usage,
+                     "--encoding must be one of: auto, utf-8, utf-16, windows-1252"};
+    }
+    table.encoding = *encoding;
+  }
+  if (!options.time_zone.empty()) {
+    auto zone = sheet::TimeZone::load(options.time_zone);
+    if (!zone) return Failure{ExitCode::Usage, zone.error().message};
+    table.zone = *std::move(zone);
+  }
+  return table;
+}
+
+template <class Rows>
+Outcome<RowInput> opened(const std::string& name, Result<Rows> rows) {
+  if (!rows) return cannot_read(name, rows.error());
+  return RowInput(std::make_shared<RowInput::State>(name, *std::move(rows)));
+}
+
+Outcome<RowInput> open_dfq(const Context& context, const MeasureOptions& options,
+                           sheet::ShopCsvOptions table) {
+  const auto file = std::make_shared<InputFile>(TRY(InputFile::open(options.input)));
+  return opened<aqdef::MeasurementCsv>(
+      options.input,
+      aqdef::MeasurementCsv(reading(file), {.encoding = table.encoding,
+                                            .columns = std::move(table.columns),
+                                            .constants = std::move(table.constants),
+                                            .zone = std::move(table.zone),
+                                            .length_unit = aqdef::length_unit(options.length_unit),
+                                            .leaves_out_others = table.leaves_out_others,
+                                            .limits_of = limits_by(context)}));
+}
+
+Outcome<RowInput> open_qif(const Context& context, const MeasureOptions& options,
+                           sheet::ShopCsvOptions table) {
+  const auto file = std::make_shared<InputFile>(TRY(open_to_read_again(options.input)));
+  return opened(options.input,
+                qif::QifRows::open(reading(file), reading_again(file),
+                                   {.constants = std::move(table.constants),
+                                    .zone = std::move(table.zone),
+                                    .length_unit = aqdef::length_unit(options.length_unit),
+                                    .leaves_out_others = table.leaves_out_others,
+                                    .limits_of = limits_by(context),
+                                    .most_rows = std::numeric_limits<std::size_t>::max()}));
+}
+
+Outcome<RowInput> open_ndjson(const MeasureOptions& options) {
+  const auto file = std::make_shared<InputFile>(TRY(InputFile::open(options.input)));
+  return opened(options.input, sheet::NdjsonRows::open({}, reading(file), sheet::Encoding::Utf8));
+}
+
+Outcome<RowInput> open_table(const MeasureOptions& options, sheet::ShopCsvOptions table) {
+  const bool is_known = table.encoding != sheet::Encoding::Detected;
+  const auto file = std::make_shared<InputFile>(
+      TRY(is_known ? InputFile::open(options.input) : open_to_read_again(options.input)));
+  return opened(options.input == "-" ? "standard input" : options.input,
+                sheet::ShopRows::open(reading(file), is_known ? reading(file) : reading_again(file),
+                                      std::move(table)));
+}
+
 }  // namespace
-
-struct RowInput::State {
-  std::string name;
-  std::variant<aqdef::MeasurementCsv, qif::QifRows, sheet::ShopRows, sheet::NdjsonRows> source;
-  std::string rows{};  ///< of which `taken` bytes are read
-  std::size_t taken = 0;
-  std::vector<std::uint32_t> lines{};
-
-  template <class Source>
-  State(std::string file, Source from) : name(std::move(file)), source(std::move(from)) {
-    if constexpr (requires { source_of<Source>().header(); }) rows = source_of<Source>().header();
-  }
-
-  template <class Source>
-  Source& source_of() {
-    return std::get<Source>(source);
-  }
-};
 
 bool RowInput::is_one(const MeasureOptions& options) {
   return !keeps_lines(options) || sheet::is_ndjson(options.input) || is_converted(options);
@@ -98,56 +159,10 @@ bool RowInput::keeps_lines(const MeasureOptions& options) {
 
 Outcome<RowInput> RowInput::open(const Context& context, const MeasureOptions& options) {
   auto table = TRY(table_options(options));
-  if (qif::is_qif(options.input)) return open_qif(context, options, table);
+  if (qif::is_qif(options.input)) return open_qif(context, options, std::move(table));
   if (is_dfq(options.input)) return open_dfq(context, options, std::move(table));
   if (sheet::is_ndjson(options.input)) return open_ndjson(options);
   return open_table(options, std::move(table));
-}
-
-Outcome<RowInput> RowInput::open_dfq(const Context& context, const MeasureOptions& options,
-                                     sheet::ShopCsvOptions table) {
-  const auto file = TRY(shared(InputFile::open(options.input)));
-  return RowInput(std::make_shared<State>(
-      options.input,
-      aqdef::MeasurementCsv(reading(file), {.encoding = table.encoding,
-                                            .columns = std::move(table.columns),
-                                            .constants = std::move(table.constants),
-                                            .zone = std::move(table.zone),
-                                            .length_unit = aqdef::length_unit(options.length_unit),
-                                            .leaves_out_others = table.leaves_out_others,
-                                            .limits_of = limits_by(context)})));
-}
-
-Outcome<RowInput> RowInput::open_qif(const Context& context, const MeasureOptions& options,
-                                     sheet::ShopCsvOptions table) {
-  const auto file = TRY(shared(open_to_read_again(options.input)));
-  auto rows = qif::QifRows::open(reading(file), reading_again(file),
-                                 {.constants = std::move(table.constants),
-                                  .zone = std::move(table.zone),
-                                  .length_unit = aqdef::length_unit(options.length_unit),
-                                  .leaves_out_others = table.leaves_out_others,
-                                  .limits_of = limits_by(context),
-                                  .most_rows = std::numeric_limits<std::size_t>::max()});
-  if (!rows) return cannot_read(options.input, rows.error());
-  return RowInput(std::make_shared<State>(options.input, *std::move(rows)));
-}
-
-Outcome<RowInput> RowInput::open_ndjson(const MeasureOptions& options) {
-  const auto file = TRY(shared(InputFile::open(options.input)));
-  auto rows = sheet::NdjsonRows::open({}, reading(file), sheet::Encoding::Utf8);
-  if (!rows) return cannot_read(options.input, rows.error());
-  return RowInput(std::make_shared<State>(options.input, *std::move(rows)));
-}
-
-Outcome<RowInput> RowInput::open_table(const MeasureOptions& options, sheet::ShopCsvOptions table) {
-  const std::string name = options.input == "-" ? "standard input" : options.input;
-  const bool is_known = table.encoding != sheet::Encoding::Detected;
-  const auto file =
-      TRY(shared(is_known ? InputFile::open(options.input) : open_to_read_again(options.input)));
-  auto rows = sheet::ShopRows::open(reading(file), is_known ? reading(file) : reading_again(file),
-                                    std::move(table));
-  if (!rows) return cannot_read(name, rows.error());
-  return RowInput(std::make_shared<State>(name, *std::move(rows)));
 }
 
 Outcome<bool> RowInput::fill() {
@@ -199,26 +214,6 @@ std::uint64_t RowInput::line_of(const Context& context, const MeasureOptions& op
 bool is_converted(const MeasureOptions& options) {
   return !options.encoding.empty() || !options.columns.empty() || !options.constants.empty() ||
          !options.time_zone.empty() || options.leave_out_others;
-}
-
-Outcome<sheet::ShopCsvOptions> table_options(const MeasureOptions& options) {
-  sheet::ShopCsvOptions table{.leaves_out_others = options.leave_out_others};
-  table.columns = TRY(read_words("--map", options.columns));
-  table.constants = TRY(read_words("--set", options.constants));
-  if (!options.encoding.empty()) {
-    const auto encoding = sheet::encoding_from_word(options.encoding);
-    if (!encoding) {
-      return Failure{ExitCode::Usage,
-                     "--encoding must be one of: auto, utf-8, utf-16, windows-1252"};
-    }
-    table.encoding = *encoding;
-  }
-  if (!options.time_zone.empty()) {
-    auto zone = sheet::TimeZone::load(options.time_zone);
-    if (!zone) return Failure{ExitCode::Usage, zone.error().message};
-    table.zone = *std::move(zone);
-  }
-  return table;
 }
 
 }  // namespace fitgauge::cli

@@ -1,4 +1,4 @@
-#include "cli/record_commands.hpp"
+#include "cli/commands.hpp"
 
 #include "cli/local_files.hpp"
 

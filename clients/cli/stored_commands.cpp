@@ -1,4 +1,3 @@
-#include "cli/address.hpp"
 #include "cli/local_files.hpp"
 #include "cli/nc_commands.hpp"
 

@@ -1,4 +1,4 @@
-#include "cli/terminal.hpp"
+#include "cli/context.hpp"
 
 #include <unistd.h>
 

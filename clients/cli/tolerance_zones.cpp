@@ -1,4 +1,4 @@
-#include "cli/tolerance_zones.hpp"
+#include "cli/answers.hpp"
 
 namespace fitgauge::cli {
 namespace {

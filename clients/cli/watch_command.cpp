@@ -1,9 +1,7 @@
-#include "cli/watch_command.hpp"
+#include "cli/answers.hpp"
 
 #include <regex>
 
-#include "cli/address.hpp"
-#include "cli/answers.hpp"
 #include "cli/commands.hpp"
 
 namespace fitgauge::cli {

@@ -1,9 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "cli/answers.hpp"
-#include "cli/json_object.hpp"
 #include "cli/measure_command.hpp"
-#include "cli/problem.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::cli;

@@ -1,11 +1,7 @@
 #include <doctest/doctest.h>
 
-#include "cli/address.hpp"
-#include "cli/http_client.hpp"
-#include "cli/json_object.hpp"
+#include "cli/answers.hpp"
 #include "cli/nc_commands.hpp"
-#include "cli/terminal.hpp"
-#include "cli/watch_command.hpp"
 
 using namespace fitgauge::cli;
 using std::chrono::milliseconds;

@@ -1,4 +1,4 @@
-#include "cli/tolerance_zones.hpp"
+#include "cli/answers.hpp"
 
 #include <doctest/doctest.h>
 
