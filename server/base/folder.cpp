@@ -160,7 +160,7 @@ Result<std::string> read_regular(const std::filesystem::path& file) {
 Result<void> replace_file(const std::string& file, std::string_view text, mode_t rights) {
   const std::string draft = file + ".new";
   ::unlink(draft.c_str());
-  const Descriptor out(
+  const Descriptor out(  // without O_EXCL a FIFO waits for a reader
       ::open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, rights));
   if (out.is_open() && write_all(out.get(), text) && fsync(out.get()) == 0 &&
       ::rename(draft.c_str(), file.c_str()) == 0) {

@@ -79,7 +79,7 @@ Result<std::string> read_regular(const std::filesystem::path& file);
 Result<std::string> read_all(const Descriptor& file);
 
 /// Writes `FILE.new`, syncs it and renames it: others see a whole file or none. A link or a file of
-/// that name is replaced. @errors StorageUnavailable with the cause alone.
+/// that name is replaced, since others could read it. @errors StorageUnavailable, the cause alone.
 Result<void> replace_file(const std::string& file, std::string_view text, mode_t rights);
 
 }  // namespace fitgauge

@@ -16,7 +16,7 @@ constexpr std::optional<E> enum_of(std::string_view text, const auto& words, int
   return static_cast<E>(found - std::ranges::begin(words) + first);
 }
 
-/// Reads the whole text as a number, without blanks or a plus sign; none if it is no such number.
+/// Reads a whole text as a number; none for blanks, a plus sign, other text, or out of range.
 template <class T>
 std::optional<T> read_number(std::string_view text, int base = 10) {
   T value{};
@@ -30,7 +30,7 @@ std::optional<T> read_number(std::string_view text, int base = 10) {
   return read.ec == std::errc() && read.ptr == end ? std::optional(value) : std::nullopt;
 }
 
-/// The offset of the first byte that is not valid UTF-8 (RFC 3629), or npos.
+/// Offset of the first byte that is not UTF-8 (RFC 3629: no surrogates or overlong forms), or npos.
 std::size_t find_invalid_utf8(std::string_view text);
 
 inline bool is_utf8(std::string_view text) {
@@ -44,7 +44,7 @@ inline std::string_view first_characters(std::string_view text, std::size_t most
   return text.substr(0, find_invalid_utf8(text));
 }
 
-/// Windows-1252 as UTF-8; its five undefined bytes become C1 controls.
+/// Windows-1252 as UTF-8; its five undefined bytes become the C1 controls of the same number.
 std::string utf8_from_windows1252(std::string_view bytes);
 
 constexpr char ascii_upper(char c) {

@@ -33,7 +33,8 @@ using ArgumentValue = std::variant<std::string_view, std::int64_t, Length, Times
 
 /// One request whose route is found and whose parameters are checked. Its views point to a head
 /// that does not move while the body is read. They are valid until the request is answered; in an
-/// asynchronous handler, as long as its Responder. The engine fills it; single-threaded.
+/// asynchronous handler, as long as its Responder. Filled by the engine; one thread reads it at a
+/// time.
 class Request {
  public:
   Method method() const { return method_; }

@@ -17,7 +17,7 @@ struct CertificateOrder {
   std::string own_origin{};  ///< `http://host:port`, for the QR code
 };
 
-/// Collects the measurements of a certificate while they are read, then writes it. Single-threaded.
+/// Collects measurements while they are read, then writes a certificate. One thread at a time.
 class CertificateDraft {
  public:
   explicit CertificateDraft(CertificateOrder order) : order_(std::move(order)) {}

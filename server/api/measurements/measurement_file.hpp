@@ -5,7 +5,7 @@
 
 namespace fitgauge::api {
 
-/// Measurements as a file that is made whole before its first byte is sent. Single-threaded.
+/// Measurements as a file that is made whole before its first byte is sent. One thread at a time.
 class MeasurementFile {
  public:
   /// Maximum number of rows in a file, because it is made in memory.

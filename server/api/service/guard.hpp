@@ -15,7 +15,7 @@ enum class AuthMode {
 };
 
 /// Checks the head of a request: 401 without a required key, 403 with an insufficient one or for a
-/// write that another site's page sent. Pages of an allowed origin may write with a key.
+/// write that another site's page sent. Pages of an allowed origin write with a key, in each mode.
 class Guard {
  public:
   /// @param proxy_seen called once for a proxy that hides its clients and so opens the service to

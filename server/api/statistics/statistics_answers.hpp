@@ -6,7 +6,7 @@
 
 namespace fitgauge::api {
 
-// Responses of /v1/statistics that stored values also have. Figures have 17 digits, or are null.
+// Responses of /v1/statistics that stored values have too. Figures have 17 digits; null: undefined.
 
 /// Members of a chart's order that only some kinds use, of values that are sent or stored.
 inline constexpr std::array<Applicable, 3> kChartMembers = {{

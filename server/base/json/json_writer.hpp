@@ -17,7 +17,7 @@ inline constexpr std::size_t kEscapeRoom = 6;
 /// @returns its end.
 char* write_escape(char* to, char c);
 
-/// `text` as a JSON string with its quotes.
+/// `text` as a JSON string with its quotes. It must be UTF-8.
 void append_json_string(std::string& out, std::string_view text);
 std::string json_string(std::string_view text);
 
