@@ -18,10 +18,7 @@ std::string_view name(Method method) {
 }
 
 Method method_named(std::string_view name) {
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (kNames[i] == name) return static_cast<Method>(i);
-  }
-  return Method::Other;
+  return enum_of<Method>(name, kNames).value_or(Method::Other);
 }
 
 std::optional<std::string_view> Request::header(std::string_view name) const {
