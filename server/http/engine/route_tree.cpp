@@ -1,6 +1,4 @@
-#include "http/engine/route_tree.hpp"
-
-#include "http/engine/request_head.hpp"
+#include "http/engine/exchange.hpp"
 
 namespace fitgauge::http {
 namespace {
