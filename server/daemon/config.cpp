@@ -1,10 +1,9 @@
-#include "daemon/config.hpp"
+#include "daemon/parts.hpp"
 
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include "base/folder.hpp"
-#include "daemon/parts.hpp"
 #include "service/log/log_keys.hpp"
 
 namespace fitgauge::daemon {
