@@ -35,8 +35,7 @@ auto answer_with(Responder responder, Make make) {
 
 /// 200 with a JSON text.
 inline Result<Response> json_response(Result<std::string> body) {
-  if (!body) return body.error();
-  return Response(200, "application/json", *std::move(body));
+  return Response(200, "application/json", TRY(std::move(body)));
 }
 
 /// Bytes that came from outside, so that a browser does not run them.
@@ -44,5 +43,13 @@ inline Response foreign_bytes(std::string content_type, std::string bytes) {
   return Response(200, std::move(content_type), std::move(bytes))
       .with("Content-Security-Policy", "sandbox; default-src 'none'; style-src 'unsafe-inline'");
 }
+
+/// The status an error has when a handler returns it (RFC 9110 section 15).
+int status_of(ErrorCode code);
+
+/// The problem document (RFC 9457) of an error: type, title, status, detail, instance, code and, if
+/// there are several, every bad field with its pointer.
+/// @param status of a refusal by the HTTP engine; absent: by the error's code.
+Response problem(const Error& error, std::optional<int> status, const Request& request);
 
 }  // namespace fitgauge::api

@@ -1,6 +1,5 @@
 #include "daemon/parts.hpp"
 
-#include <fcntl.h>
 #include <malloc.h>
 #include <openssl/crypto.h>
 #include <sys/resource.h>
@@ -10,8 +9,8 @@
 #include <cerrno>
 #include <csignal>
 
+#include "api/handlers.hpp"
 #include "api/runs/run_posting.hpp"
-#include "api/wire/problem.hpp"
 #include "base/folder.hpp"
 #include "daemon/log.hpp"
 #include "db/store/database.hpp"
@@ -209,6 +208,7 @@ Result<void> provide_admin_key(const Config& config, bool needs_one, app::KeySer
   if (has_one || !needs_one) return {};
   const std::string token = app::KeyService::new_token();
   const std::string file = admin_key_out(config);
+  // Only for its owner; an old file is replaced, since others could read it.
   if (const auto written = replace_file(file, token + '\n', 0600); !written)
     return config_error("admin-key-out: cannot write {}: {}", file, written.error().message);
   if (const auto created = keys.create(kName, app::Role::Admin, token); !created) {
@@ -291,16 +291,15 @@ Result<std::unique_ptr<mtconnect::ShdrAdapter>> start_shdr(const Config& config,
   using Adapter = std::unique_ptr<mtconnect::ShdrAdapter>;
   if (config.shdr_listen.empty()) return Adapter();
   const auto address = TRY(http::parse_listen_address(config.shdr_listen));
-  auto adapter = mtconnect::ShdrAdapter::start(
+  auto adapter = TRY(mtconnect::ShdrAdapter::start(
       {.listen = address,
        .sent_away =
            [](std::string_view peer, std::string_view why) {
              log_warning("shdr_agent_sent_away", fmt::format("{}: {}", peer, why));
            }},
-      services.measurements, services.events, services.clock);
-  if (!adapter) return adapter.error();
-  log_info("shdr_listening", fmt::format("port {}", (*adapter)->port()));
-  return *std::move(adapter);
+      services.measurements, services.events, services.clock));
+  log_info("shdr_listening", fmt::format("port {}", adapter->port()));
+  return adapter;
 }
 
 }  // namespace fitgauge::daemon

@@ -5,9 +5,9 @@
 
 #include <csignal>
 
+#include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/service/guard.hpp"
-#include "api/wire/problem.hpp"
 #include "daemon/log.hpp"
 
 namespace fitgauge::daemon {
@@ -204,16 +204,15 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
   of_plant.group("connections");
   api::Schemas schemas;
   connections::add_connection_schemas(schemas);
-  auto started = http::Server::start(
+  auto started = TRY(http::Server::start(
       std::move(listening), api::make_routes(std::move(of_plant), schemas),
       hooks(
           services,
           api::Guard(
               app.keys(), mode, [](std::string_view what) { log_warning("proxy_suspected", what); },
               [&app] { return app.log().forked(); }),
-          metrics));
-  if (!started) return started.error();
-  http::Server& server = **started;
+          metrics)));
+  http::Server& server = *started;
   auto control = TRY(start_control(config, services));
   auto adapter = TRY(start_shdr(config, services));
   metrics.add([&server](api::Exposition& out) { write_server_metrics(server, out); });
@@ -241,7 +240,7 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
   forwarding.reset();
   // The application drains its queues first: the answers of its last jobs find no connection.
   opened.reset();
-  started->reset();
+  started.reset();
   log_info("stopped", "");
   return {};
 }

@@ -73,15 +73,14 @@ struct Limits {
 Result<Limits> limits_of(const Request& request, const iso286::ToleranceTables& tables) {
   const std::string_view text = *request.text("designation");
   if (standards::is_designation(text)) {
-    auto limits = standards::limits_of(text);
-    if (!limits) return limits.error();
-    if (const auto feature = request.text("feature"); feature && limits->feature_is_open)
-      limits->feature = *iso286::feature_from_word(*feature);
-    const gauging::Quantity quantity = app::quantity_of(*limits);
+    auto limits = TRY(standards::limits_of(text));
+    if (const auto feature = request.text("feature"); feature && limits.feature_is_open)
+      limits.feature = *iso286::feature_from_word(*feature);
+    const gauging::Quantity quantity = app::quantity_of(limits);
     const bool is_distance = quantity == gauging::Quantity::Distance;
-    return Limits{.answer = limits_answer(*limits),
-                  .of = {limits->upper_limit(), limits->lower_limit()},
-                  .etag = etag_of(*limits->standard),
+    return Limits{.answer = limits_answer(limits),
+                  .of = {limits.upper_limit(), limits.lower_limit()},
+                  .etag = etag_of(*limits.standard),
                   .quantity = is_distance && request.text("feature") ? gauging::Quantity::Diameter
                                                                      : quantity};
   }

@@ -1,6 +1,5 @@
 #include "api/handlers.hpp"
 #include "api/resources.hpp"
-#include "api/wire/problem.hpp"
 #include "base/json/json_writer.hpp"
 #include "service/jobs.hpp"
 #include "service/log/station_texts.hpp"

@@ -208,10 +208,9 @@ Result<CheckedDocument> check_drawn(const Services& services, const std::string&
   const auto drawing = TRY(drawing_of(services, text));
   std::string stored;
   const auto plan = TRY(drawn_plan(services, drawing, part, stored));
-  auto checked = check_plan(services, part, plan.text);
-  if (!checked) return checked.error();
-  checked->answer = body_json(plan);
-  checked->before = std::move(stored);
+  auto checked = TRY(check_plan(services, part, plan.text));
+  checked.answer = body_json(plan);
+  checked.before = std::move(stored);
   return checked;
 }
 

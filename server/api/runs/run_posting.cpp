@@ -2,11 +2,9 @@
 
 #include <future>
 
+#include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
-#include "api/wire/problem.hpp"
 #include "api/wire/request_facts.hpp"
-#include "base/json/json_value.hpp"
-#include "nc/program/program_cache.hpp"
 #include "service/jobs.hpp"
 
 namespace fitgauge::api {
@@ -69,7 +67,8 @@ Response with_preference(Response response) {
   return std::move(response).with("Preference-Applied", "respond-async");
 }
 
-/// The answer stored for an Idempotency-Key: of a run that is waited for only the place.
+/// The answer stored for an Idempotency-Key: of a run that is waited for only the place, since its
+/// report never changes.
 app::Answer accepted(const app::ActiveRun& run, bool at_once) {
   app::Answer answer{.status = 201, .content_type = {}, .location = {}, .body = {}};
   answer.location = std::string(kRuns) + run.id_text();

@@ -1,4 +1,3 @@
-#include "api/service/commit_stream.hpp"
 #include "api/wire/event_text.hpp"
 #include "record/record.hpp"
 

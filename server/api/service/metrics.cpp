@@ -1,6 +1,6 @@
 #include "api/service/metrics.hpp"
 
-#include "api/wire/problem.hpp"
+#include "api/handlers.hpp"
 
 namespace fitgauge::api {
 namespace {

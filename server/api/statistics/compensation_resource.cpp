@@ -1,10 +1,8 @@
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_listing.hpp"
-#include "api/service/commit_stream.hpp"
 #include "api/statistics/next_offset.hpp"
 #include "api/wire/event_text.hpp"
 #include "api/wire/formulas.hpp"
-#include "api/wire/problem.hpp"
 #include "metrology/statistics/compensation.hpp"
 #include "record/record.hpp"
 

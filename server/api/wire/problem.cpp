@@ -1,4 +1,4 @@
-#include "api/wire/problem.hpp"
+#include "api/handlers.hpp"
 
 #include "base/json/json_writer.hpp"
 
