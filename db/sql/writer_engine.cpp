@@ -143,7 +143,9 @@ std::optional<Error> WriterThread::try_commit(Jobs& jobs,
     // If several daemons write, there was a wait: jobs that arrived in between are included.
     if (!options_.commit_each) {
       Jobs more = queue_.take_all(milliseconds(0));
+      const bool have_come = !more.empty();
       std::move(more.begin(), more.end(), std::back_inserter(jobs));
+      if (have_come && check_) check_();  // a file may have been taken away before they came
     }
     if (jobs.size() == 1) {
       errors.push_back(run_alone(*jobs.front()));

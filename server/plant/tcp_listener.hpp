@@ -32,8 +32,10 @@ class TcpListener {
       return Error{ErrorCode::ListenFailed, fmt::format("cannot listen on {} port {}{}: {}", host,
                                                         port, purpose, error.message())};
     }
-    accept();
-    thread_ = Thread(place_, [this](const auto&) { io_.run(); });
+    thread_ = Thread(place_, [this](const auto&) {
+      if (!is_waiting_) accept();  // at the start, and when an exception left nothing to wait for
+      io_.run();
+    });
     return {};
   }
 
@@ -50,6 +52,7 @@ class TcpListener {
  private:
   void accept() {
     acceptor_.async_accept(peer_, [this](http::error_code error, http::Socket client) {
+      is_waiting_ = false;
       if (!error) {
         // Missing memory here must not end the acceptance of clients.
         guarded(border_, [&] { take_(std::move(client), peer_.address().to_string()); });
@@ -60,7 +63,9 @@ class TcpListener {
       pause_.async_wait([this](http::error_code cancelled) {
         if (!cancelled) accept();
       });
+      is_waiting_ = true;
     });
+    is_waiting_ = true;
   }
 
   const std::string_view place_;
@@ -71,6 +76,7 @@ class TcpListener {
   http::Acceptor acceptor_{io_};
   http::Timer pause_{io_};
   http::asio::ip::tcp::endpoint peer_;
+  bool is_waiting_ = false;  ///< for a client, or for the end of a pause
   Thread thread_;
 };
 

@@ -63,6 +63,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
   Result<void> open() {
     TRY(listener_.open(options_.listen.host, options_.listen.port, " for SHDR"));
     events_.add(shared_from_this());
+    committed();  // rows of before, which a client that connects at once may have missed
     return {};
   }
 

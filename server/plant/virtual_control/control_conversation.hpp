@@ -148,12 +148,12 @@ class ControlConversation final : public Conversation {
     } else if (request.mode != ListDirectory::kDrives) {
       return ControlError::WrongParameter;
     }
-    const auto next_entry = [this, entries = std::move(entries),
-                             sent = std::size_t{0}]() mutable -> std::optional<Telegram> {
+    auto next_entry = [this, entries = std::move(entries),
+                       sent = std::size_t{0}]() mutable -> std::optional<Telegram> {
       if (sent == entries.size()) return std::nullopt;
       return encode(shown<DirectoryEntry>(entries[sent++]));
     };
-    return begin_sending(next_entry);
+    return begin_sending(std::move(next_entry));
   }
 
   Reply reply(const MakeDirectory& request) {
@@ -232,15 +232,15 @@ class ControlConversation final : public Conversation {
     const auto stored = TRY(state_.disk.read(path));
     TRY(charge(stored.size()));
     const bool is_binary = request.binary.value_or(false);
-    const auto next_block = [this, bytes = is_binary ? stored : lines_on_the_wire(stored),
-                             sent = std::size_t{0}]() mutable -> std::optional<Telegram> {
+    auto next_block = [this, bytes = is_binary ? stored : lines_on_the_wire(stored),
+                       sent = std::size_t{0}]() mutable -> std::optional<Telegram> {
       if (sent > 0 && sent >= bytes.size()) return std::nullopt;  // an empty file has one block
       // A block is ten bytes shorter than the buffer, as other controls send it.
       std::string block = bytes.substr(sent, buffer_ - kHeadBytes - 2);
       sent += std::max<std::size_t>(block.size(), 1);
       return encode(FileBlock{.bytes = {std::move(block)}});
     };
-    return begin_sending(next_block);
+    return begin_sending(std::move(next_block));
   }
 
   /// Sends the next part of a transfer.

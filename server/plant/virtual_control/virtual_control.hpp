@@ -32,11 +32,11 @@ struct ExampleProgram {
 
 std::span<const ExampleProgram> example_programs();
 
-/// The simulated machine at an LSV-2 port. It adds the files of every control: an MDI program, a
-/// tool table and the example programs, unless they are stored.
+/// The simulated machine at an LSV-2 port.
 using VirtualControl = control_link::LinkServer;
 
-/// @param files, runs must outlive it.
+/// Adds the files of every control, an MDI program, a tool table and the example programs, unless
+/// they are stored, and starts the machine. @param files, runs must outlive it.
 /// @errors ListenFailed; ConfigInvalid: no such model; those of the storage.
 Result<std::unique_ptr<VirtualControl>> start_virtual_control(VirtualControlOptions options,
                                                               app::FileService& files,

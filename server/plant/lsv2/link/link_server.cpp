@@ -21,11 +21,15 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// Answers the telegrams that have come, then reads on.
   /// @param is_new whether a telegram or a silence begins now
   void go_on(bool is_new) {
-    // A bug in a session ends only that session.
-    if (!guarded("a control's conversation", [&] { answer(is_new); })) end("the service failed");
+    take([&] { answer(is_new); });
   }
 
  private:
+  /// A bug in a session, or missing memory, ends only that session.
+  void take(const auto& step) {
+    if (!guarded("a control's conversation", step)) end("the service failed");
+  }
+
   void answer(bool is_new) {
     for (;; is_new = true) {
       reader_.set_buffer(conversation_->buffer());
@@ -49,9 +53,11 @@ class Connection : public std::enable_shared_from_this<Connection> {
     socket_.async_read_some(http::asio::buffer(bytes_),
                             [self = shared_from_this()](http::error_code error, std::size_t count) {
                               if (error) return self->end("");
-                              const bool was_inside = self->reader_.is_inside();
-                              self->reader_.feed({self->bytes_.data(), count});
-                              self->go_on(!was_inside);
+                              self->take([&] {
+                                const bool was_inside = self->reader_.is_inside();
+                                self->reader_.feed({self->bytes_.data(), count});
+                                self->answer(!was_inside);
+                              });
                             });
   }
 
@@ -62,7 +68,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
         [self = shared_from_this()](http::error_code error, std::size_t count) {
           if (error) return self->end("");
           self->out_.erase(0, count);
-          self->out_.empty() ? self->go_on(true) : self->write();
+          self->take([&] { self->out_.empty() ? self->answer(true) : self->write(); });
         });
   }
 
