@@ -77,8 +77,14 @@ struct Outcome {
 /// Handlers return an expected failure; the error formatter makes the response.
 using SyncHandler = std::function<Result<Response>(const Request&)>;
 using AsyncHandler = std::function<void(const Request&, Responder)>;
+/// Answers most requests at once, and in one write with those before; `later` takes a request for
+/// which `now` returns nothing.
+struct EitherHandler {
+  std::function<std::optional<Result<Response>>(const Request&)> now;
+  AsyncHandler later;
+};
 /// Handlers run on an I/O thread and must not block. Long work goes to a worker with its Responder.
-using Handler = std::variant<SyncHandler, AsyncHandler>;
+using Handler = std::variant<SyncHandler, AsyncHandler, EitherHandler>;
 
 /// One operation as data: dispatch, validation, error texts and the API's description come from it.
 /// GET also answers HEAD; OPTIONS and 405 are derived.

@@ -233,7 +233,7 @@ Result<iso286::FitDesignation> of_one_segment(const Request& request) {
 
 /// The fit of a designation: from the tables and cached, or with the stored values of a query.
 template <class Designation>
-http::AsyncHandler answer_fit(const Routes& add, Designation designation_of) {
+http::EitherHandler answer_fit(const Routes& add, Designation designation_of) {
   auto from_tables = ResponseCache::of_revision(
       add.cache,
       [designation_of](const Request& request, const ToleranceTables& tables) -> Result<Response> {
@@ -241,26 +241,30 @@ http::AsyncHandler answer_fit(const Routes& add, Designation designation_of) {
         const auto fit = TRY(find_fit(designation, tables));
         return tagged_json(fit_json(designation, fit, tables), etag_of(tables));
       });
-  return [&services = add.services, designation_of, from_tables = std::move(from_tables)](
-             const Request& request, Responder responder) {
-    if (request.query().empty() || asks_for_revision_alone(request))
-      return from_tables(request, std::move(responder));
-    const auto shared = share(std::move(responder));
-    tables_of(services.tables, request,
-              [&services, &request, designation_of,
-               shared](const Result<app::TableCatalog::Tables>& tables) {
-                if (!tables) return shared->fail(tables.error());
-                const auto designation = TRY_OR_FAIL(*shared, designation_of(request));
-                const auto fit = TRY_OR_FAIL(*shared, find_fit(designation, **tables));
-                read_fit_of_values(
-                    services, request, fit,
-                    [shared, tables = *tables, designation, fit](Result<WriteStored> stored) {
-                      if (!stored) return shared->fail(stored.error());
-                      shared->answer(
-                          {200, "application/json", fit_json(designation, fit, *tables, *stored)});
-                    });
-              });
+  const auto now = [now = from_tables.now](const Request& request) {
+    return request.query().empty() ? now(request) : std::nullopt;
   };
+  return {now, [&services = add.services, designation_of, from_revision = from_tables.later](
+                   const Request& request, Responder responder) {
+            if (asks_for_revision_alone(request))
+              return from_revision(request, std::move(responder));
+            const auto shared = share(std::move(responder));
+            tables_of(
+                services.tables, request,
+                [&services, &request, designation_of,
+                 shared](const Result<app::TableCatalog::Tables>& tables) {
+                  if (!tables) return shared->fail(tables.error());
+                  const auto designation = TRY_OR_FAIL(*shared, designation_of(request));
+                  const auto fit = TRY_OR_FAIL(*shared, find_fit(designation, **tables));
+                  read_fit_of_values(
+                      services, request, fit,
+                      [shared, tables = *tables, designation, fit](Result<WriteStored> stored) {
+                        if (!stored) return shared->fail(stored.error());
+                        shared->answer({200, "application/json",
+                                        fit_json(designation, fit, *tables, *stored)});
+                      });
+                });
+          }};
 }
 
 /// Adds the parameters that select stored values to those of a path.

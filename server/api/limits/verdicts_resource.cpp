@@ -172,13 +172,12 @@ Parameter parameter_of(const app::MeasurementField& field) {
 
 void add_verdicts_routes(Routes& add) {
   add("GET /v1/verdicts/{designation} getVerdict open 404 422",
-      [&tables = add.services.tables](const Request& request, Responder responder) {
-        tables_of(tables, request,
-                  [&request, answer = answer_by(share(std::move(responder)))](
-                      const Result<app::TableCatalog::Tables>& found) {
-                    answer(found ? verdict(request, **found) : found.error());
-                  });
-      },
+      of_revision(
+          add.services.tables,
+          [&tables = add.services.tables](const Request& request) -> Result<Response> {
+            return verdict(request, *TRY(tables.tables()));
+          },
+          verdict),
       {.summary = "Verdict on a measured value",
        .description =
            "good, rework (hole too small, shaft too large) or reject (hole too large, shaft too "

@@ -29,15 +29,20 @@ Parameter revision_parameter() {
   return query("revision", "Answers from an older revision of the tables");
 }
 
-http::AsyncHandler ResponseCache::of_revision(std::shared_ptr<ResponseCache> cache,
-                                              TableHandler make) {
-  return [cache, make, current = cached(cache, make)](const Request& request, Responder responder) {
-    const auto answer = answer_by(share(std::move(responder)));
-    if (!request.has("revision")) return answer(current(request));
-    tables_of(cache->tables_, request, [&request, make, answer](const auto& tables) {
-      answer(tables ? make(request, **tables) : tables.error());
-    });
-  };
+http::EitherHandler of_revision(app::TableCatalog& tables, http::SyncHandler current,
+                                TableHandler make) {
+  return {.now = [current](const Request& request) -> std::optional<Result<Response>> {
+            if (request.has("revision")) return std::nullopt;
+            return current(request);
+          },
+          .later =
+              [&tables, make](const Request& request, Responder responder) {
+                tables_of(tables, request,
+                          [&request, make,
+                           answer = answer_by(share(std::move(responder)))](const auto& found) {
+                            answer(found ? make(request, **found) : found.error());
+                          });
+              }};
 }
 
 http::SyncHandler ResponseCache::cached(std::shared_ptr<ResponseCache> cache, TableHandler make) {

@@ -12,6 +12,15 @@ namespace fitgauge::api {
 void tables_of(app::TableCatalog& catalog, const Request& request,
                app::TableCatalog::Callback<app::TableCatalog::Tables> done);
 
+using TableHandler =
+    std::function<Result<Response>(const Request&, const iso286::ToleranceTables&)>;
+
+/// A handler that answers at once by `current`, or by `make` from older tables if the query has
+/// `revision`.
+/// @errors RevisionUnknown, and those of both.
+http::EitherHandler of_revision(app::TableCatalog& tables, http::SyncHandler current,
+                                TableHandler make);
+
 /// Returns whether `revision` is the only member of a query.
 bool asks_for_revision_alone(const Request& request);
 
@@ -23,9 +32,6 @@ class ResponseCache {
  public:
   explicit ResponseCache(app::TableCatalog& tables) : tables_(tables) {}
 
-  using TableHandler =
-      std::function<Result<Response>(const Request&, const iso286::ToleranceTables&)>;
-
   /// A handler that responds from the cache, or from `make` with the current tables. Only 200 is
   /// cached.
   /// @errors TablesInconsistent if the tables fail their audit; those of `make`.
@@ -34,7 +40,9 @@ class ResponseCache {
   /// A handler like cached() that uses older tables, without the cache, if the query has
   /// `revision`.
   /// @errors RevisionUnknown, and those of cached().
-  static http::AsyncHandler of_revision(std::shared_ptr<ResponseCache> cache, TableHandler make);
+  static http::EitherHandler of_revision(std::shared_ptr<ResponseCache> cache, TableHandler make) {
+    return api::of_revision(cache->tables_, cached(cache, make), make);
+  }
 
  private:
   using Prepared = std::shared_ptr<const http::PreparedResponse>;

@@ -322,17 +322,24 @@ AnswerForm Exchange::form(bool keep_alive) const {
   return form;
 }
 
-Result<Response> Exchange::run() {
+std::optional<Result<Response>> Exchange::run_now() {
+  const Handler& handler = request_.route_->handler;
   try {
-    return std::get<SyncHandler>(request_.route_->handler)(request_);
+    if (const auto* const sync = std::get_if<SyncHandler>(&handler)) return (*sync)(request_);
+    if (const auto* const either = std::get_if<EitherHandler>(&handler))
+      return either->now(request_);
+    return std::nullopt;
   } catch (const std::exception& error) {
     return internal_error(error.what());
   }
 }
 
-void Exchange::run(Responder responder) {
+void Exchange::run_later(Responder responder) {
+  const Handler& handler = request_.route_->handler;
+  const auto* const either = std::get_if<EitherHandler>(&handler);
   try {
-    std::get<AsyncHandler>(request_.route_->handler)(request_, std::move(responder));
+    (either != nullptr ? either->later : std::get<AsyncHandler>(handler))(request_,
+                                                                          std::move(responder));
   } catch (const std::exception& error) {  // its Responder, destroyed, has answered 500
     if (hooks_.handler_threw) hooks_.handler_threw(request_, error.what());
   }

@@ -132,12 +132,10 @@ class Exchange {
     request_.body_ = body.text.empty() ? FileText(std::string_view(kNothing, 0)) : body;
   }
 
-  bool is_synchronous() const {
-    return std::holds_alternative<SyncHandler>(request_.route()->handler);
-  }
-  /// The result of a synchronous handler, or the answer to its exception.
-  Result<Response> run();
-  void run(Responder responder);
+  /// The result of a handler that answers at once, or the answer to its exception; none if it
+  /// answers later: then call run_later().
+  std::optional<Result<Response>> run_now();
+  void run_later(Responder responder);
 
   AnswerForm form(bool keep_alive) const;
   Response error_response(const Error& error, std::optional<int> status = std::nullopt) const;

@@ -1,5 +1,7 @@
 """Limits, fits and verdicts over HTTP."""
 
+import socket
+
 from support.daemon import DaemonTest
 
 # Deviations that tools often get wrong: upper and lower, in µm.
@@ -33,6 +35,15 @@ class Limits(DaemonTest):
             tag = self.daemon.get("/v1/" + path).headers["etag"]
             self.assertTrue(tag.endswith(f'.{version}"'), f"{path}: {tag}")
             self.assertEqual(self.daemon.get("/v1/" + path, If_None_Match=tag).status, 304)
+
+    def test_answers_from_the_tables_leave_in_one_write(self):
+        for path in ("limits/25H7", "limits?nominal_mm=25&tolerance_class=H7", "verdicts/25H7?measured_mm=25", "fits/25H7/g6",
+                     "fits/25H7%2Fg6", "fits?nominal_mm=25&min_clearance_um=44&max_clearance_um=45", "gauges/25H7", "tables",
+                     "tables/hole?classes=H7", "standards"):
+            self.daemon.get("/v1/" + path)
+            with socket.create_connection(("127.0.0.1", self.daemon.port)) as client:
+                client.sendall(f"GET /v1/{path} HTTP/1.1\r\nHost: a\r\n\r\n".encode() * 8)
+                self.assertEqual(client.recv(1 << 20).count(b"HTTP/1.1 200"), 8, path)
 
     def test_the_limits_object(self):
         limits = self.limits("/v1/limits/25H7")

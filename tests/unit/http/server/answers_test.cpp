@@ -35,6 +35,19 @@ Route fast() {
           .response_types = {}};
 }
 
+/// Answers even numbers at once, and odd ones from another thread.
+Route either(Worker& worker) {
+  Route route = slow(worker);
+  route.pattern = "/either/{n}";
+  const auto now = [](const Request& request) -> std::optional<Result<Response>> {
+    const std::string n(*request.text("n"));
+    if ((n.back() - '0') % 2 != 0) return std::nullopt;
+    return text("fast " + n);
+  };
+  route.handler = EitherHandler{now, std::get<AsyncHandler>(route.handler)};
+  return route;
+}
+
 }  // namespace
 
 TEST_CASE("pipelined requests are answered in order, whoever answers them") {
@@ -48,6 +61,20 @@ TEST_CASE("pipelined requests are answered in order, whoever answers them") {
     const auto answer = client.read();
     REQUIRE(answer);
     CHECK(answer->body == fmt::format("{} {}", i % 3 ? "fast" : "slow", i));
+  }
+}
+
+TEST_CASE("a handler answers at once what it can, and in order with what it answers later") {
+  Worker worker;
+  TestServer server({either(worker)});
+  Client client = server.connect();
+  std::string requests;
+  for (int i = 0; i < 40; ++i) requests += get(fmt::format("/either/{}", i));
+  client.send(requests);
+  for (int i = 0; i < 40; ++i) {
+    const auto answer = client.read();
+    REQUIRE(answer);
+    CHECK(answer->body == fmt::format("{} {}", i % 2 == 0 ? "fast" : "slow", i));
   }
 }
 
@@ -118,15 +145,18 @@ TEST_CASE("answers that pile up before a slow reader stay whole and in order") {
 }
 
 TEST_CASE("every complete request in the buffer is answered in one write") {
-  TestServer server({fast()});
-  Client client = server.connect();
-  std::string requests;
-  for (int i = 0; i < 16; ++i) requests += get("/fast/1");
-  client.send(requests);
-  const std::string answers = client.read_some();
-  std::size_t count = 0;
-  for (std::size_t at = 0; (at = answers.find("fast 1", at)) != std::string::npos; ++at) ++count;
-  CHECK(count == 16);
+  Worker worker;
+  TestServer server({fast(), either(worker)});
+  for (const std::string path : {"/fast/2", "/either/2"}) {
+    Client client = server.connect();
+    std::string requests;
+    for (int i = 0; i < 16; ++i) requests += get(path);
+    client.send(requests);
+    const std::string answers = client.read_some();
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = answers.find("fast 2", at)) != std::string::npos; ++at) ++count;
+    CHECK(count == 16);
+  }
 }
 
 TEST_CASE("a handler that fails answers by the error formatter, one that throws 500 with the id") {
