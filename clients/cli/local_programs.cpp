@@ -3,8 +3,7 @@
 #include "api/runs/run_codec.hpp"
 #include "cli/local_files.hpp"
 #include "nc/iso/parser.hpp"
-#include "nc/iso/printer.hpp"
-#include "nc/klartext/printer.hpp"
+#include "nc/klartext/parser.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -3,11 +3,10 @@
 #include <regex>
 
 #include "nc/iso/codes.hpp"
-#include "nc/iso/line.hpp"
 #include "nc/iso/parser.hpp"
-#include "nc/iso/printer.hpp"
+#include "nc/iso/translation.hpp"
+#include "nc/klartext/parser.hpp"
 #include "nc/klartext/parser_rules.hpp"
-#include "nc/klartext/printer.hpp"
 #include "nc/probing/cycles.hpp"
 
 namespace fitgauge::cli {

@@ -3,8 +3,7 @@
 
 #include "../support/same_program.hpp"
 #include "nc/iso/parser.hpp"
-#include "nc/iso/printer.hpp"
-#include "nc/klartext/printer.hpp"
+#include "nc/klartext/parser.hpp"
 
 using namespace fitgauge::klartext;
 

@@ -1,9 +1,6 @@
-#include "nc/iso/printer.hpp"
-
 #include "nc/iso/codes.hpp"
 #include "nc/iso/parser.hpp"
 #include "nc/klartext/operator_names.hpp"
-#include "nc/klartext/printer.hpp"
 
 namespace fitgauge::iso {
 namespace {
@@ -254,11 +251,8 @@ class Converter {
 
   static std::string items(std::string_view list) {
     std::string text;
-    for (int number = 1; !list.empty(); ++number) {
-      const std::string_view item = list.substr(0, list.find('/'));
-      text += fmt::format(" P{:02} {}", number, trim(item));
-      list.remove_prefix(std::min(item.size() + 1, list.size()));
-    }
+    for (int number = 1; !list.empty(); ++number)
+      text += fmt::format(" P{:02} {}", number, trim(take_field(list, '/')));
     return text;
   }
 

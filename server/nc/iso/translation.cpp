@@ -1,9 +1,7 @@
 #include "nc/iso/translation.hpp"
 
-#include "nc/iso/line.hpp"
 #include "nc/klartext/parser.hpp"
 #include "nc/klartext/parser_rules.hpp"
-#include "nc/klartext/syntax.hpp"
 
 namespace fitgauge::iso {
 namespace {

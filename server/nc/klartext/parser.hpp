@@ -34,4 +34,14 @@ ParsedProgram parse_program(std::string bytes, std::string name);
 /// The first words of blocks, also of unavailable features; `*`, axes and parameters begin some.
 std::vector<std::string_view> block_keywords();
 
+/// The program as Klartext, one blank between words, lines ending with LF. Reading it back gives an
+/// equal program. Numbers are printed with the fewest digits that give the same value.
+std::string print_program(const Program& program);
+
+/// Prints a program with blocks numbered from 0, as a control lists it.
+std::string format_program(const Program& program);
+
+/// One block without skip mark, number and comment; a cycle with its comments.
+std::string print_statement(const Program& program, const Block& block);
+
 }  // namespace fitgauge::klartext

@@ -1,6 +1,5 @@
 #include "nc/klartext/parser.hpp"
 #include "nc/klartext/parser_rules.hpp"
-#include "nc/klartext/parser_words.hpp"
 
 namespace fitgauge::klartext {
 namespace {

@@ -1,6 +1,5 @@
 #include "nc/klartext/operator_names.hpp"
 #include "nc/klartext/parser_rules.hpp"
-#include "nc/klartext/parser_words.hpp"
 
 /// Cycles in Q-form. Their block is read line by line: each physical line may end with a comment
 /// (the dialog text) and a wrap.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "nc/klartext/block_reader.hpp"
-#include "nc/klartext/parser_words.hpp"
 
 /// The grammar: one function for each family of blocks, which begins after the block's first
 /// keyword and reads to the end of its code. After a failure their results are dropped.

@@ -1,4 +1,4 @@
-#include "nc/klartext/printer.hpp"
+#include "nc/klartext/parser.hpp"
 
 #include "nc/klartext/block_writer.hpp"
 #include "nc/klartext/operator_names.hpp"
@@ -84,8 +84,7 @@ void write_block(BlockWriter& out, S statement) {
 }
 
 /// Feeds and M functions end a positioning block; the compensation stands before them.
-constexpr LetterSet kFeedsAndM(Letter::F, Letter::FMax, Letter::FAuto, Letter::Fu, Letter::Fz,
-                               Letter::Ft, Letter::FMaxT, Letter::M);
+constexpr LetterSet kFeedsAndM = kFeeds | LetterSet(Letter::M);
 
 void write_block(BlockWriter&, const Empty&) {}
 
@@ -101,20 +100,17 @@ void write_block(BlockWriter& out, const ErrorBlock& error) {
 void write_block(BlockWriter& out, const Unsupported& unsupported) { out.write(unsupported.text); }
 
 void write_block(BlockWriter& out, const BlankForm& form) {
-  constexpr std::string_view kNames[] = {"0.1", "0.2", "CYLINDER", "ROTATION", "FILE"};
-  out.write("BLK FORM ").write(kNames[static_cast<std::size_t>(form.kind)]);
+  out.write("BLK FORM ").write(word_of(form.kind, {"0.1", "0.2", "CYLINDER", "ROTATION", "FILE"}));
   if (form.tool_axis) out.write(" ").write(name_of(*form.tool_axis));
   if (!is_absent(form.file)) out.write(" ").value(form.file);
   out.words(form.words);
 }
 
 void write_block(BlockWriter& out, const Motion& motion) {
-  constexpr std::string_view kCompensations[] = {"", " R0", " RL", " RR", " R+", " R-"};
-  constexpr std::string_view kRotations[] = {"", " DR+", " DR-"};
-  out.write(kPaths[static_cast<std::size_t>(motion.path)]);
+  out.write(word_of(motion.path, kPaths));
   const std::string marks =
-      fmt::format("{}{}", kRotations[static_cast<std::size_t>(motion.rotation)],
-                  kCompensations[static_cast<std::size_t>(motion.compensation)]);
+      fmt::format("{}{}", word_of(motion.rotation, {"", " DR+", " DR-"}),
+                  word_of(motion.compensation, {"", " R0", " RL", " RR", " R+", " R-"}));
   out.words(motion.words, marks, kFeedsAndM);
 }
 
@@ -127,8 +123,8 @@ void write_block(BlockWriter& out, const MFunctions& functions) {
 }
 
 void write_block(BlockWriter& out, const Trans& trans) {
-  constexpr std::string_view kNames[] = {"DATUM", "DATUM TABLE", "MIRROR", "ROTATION", "SCALE"};
-  out.write("TRANS ").write(kNames[static_cast<std::size_t>(trans.kind)]);
+  out.write("TRANS ");
+  out.write(word_of(trans.kind, {"DATUM", "DATUM TABLE", "MIRROR", "ROTATION", "SCALE"}));
   const bool axes = trans.kind == Transformation::Datum || trans.kind == Transformation::Mirror;
   out.write(trans.reset ? " RESET" : axes ? " AXIS" : "");
   if (!is_absent(trans.table)) out.write(" ").value(trans.table);
@@ -139,8 +135,8 @@ void write_block(BlockWriter& out, const Plane& plane) {
   constexpr LetterSet kBehind =
       kFeedsAndM | LetterSet(Letter::Mb, Letter::MbMax, Letter::Dist, Letter::Seq, Letter::Sym,
                              Letter::TableRot, Letter::CoordRot);
-  out.write("PLANE ").write(kPlaneKinds[static_cast<std::size_t>(plane.kind)]);
-  const std::string_view how = kPlanePositionings[static_cast<std::size_t>(plane.positioning)];
+  out.write("PLANE ").write(word_of(plane.kind, kPlaneKinds));
+  const std::string_view how = word_of(plane.positioning, kPlanePositionings);
   out.words(plane.words, fmt::format("{}{}", how.empty() ? "" : " ", how), kBehind);
 }
 
@@ -163,7 +159,7 @@ void write_block(BlockWriter& out, const PatternDefinition& pattern) {
 }
 
 void write_block(BlockWriter& out, const FunctionMode& mode) {
-  out.write("FUNCTION MODE ").write(kOperatingModes[static_cast<std::size_t>(mode.mode)]);
+  out.write("FUNCTION MODE ").write(word_of(mode.mode, kOperatingModes));
   if (!mode.kinematics.empty()) out.write(" ").quoted(mode.kinematics);
 }
 
@@ -209,8 +205,7 @@ void write_block(BlockWriter& out, const CyclePart& part) {
 }
 
 void write_block(BlockWriter& out, const CycleCall& call) {
-  constexpr std::string_view kKinds[] = {"", " PAT", " POS"};
-  out.write("CYCL CALL").write(kKinds[static_cast<std::size_t>(call.kind)]).words(call.words);
+  out.write("CYCL CALL").write(word_of(call.kind, {"", " PAT", " POS"})).words(call.words);
 }
 
 void write_fn_value(BlockWriter& out, const Assignment& assignment) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "nc/klartext/word_names.hpp"
+#include "nc/klartext/expression.hpp"
 
 /// The content of a block, one small struct for each kind of block. All are trivially copyable:
 /// texts, words and lists are in the Program's pools.

@@ -1,5 +1,7 @@
 #include "nc/machine/machine_state.hpp"
 
+#include "nc/machine/fault.hpp"
+
 namespace fitgauge::machine {
 
 double MachineState::tool_length() const {
@@ -112,6 +114,26 @@ const Transform& Frames::transform(CoordinateSystem system) const {
 Vec3 Frames::rotary_zero(CoordinateSystem system) const {
   if (system == CoordinateSystem::Input) return preset_.rotary_offsets_deg + shift_.rotary;
   return system == CoordinateSystem::Workpiece ? preset_.rotary_offsets_deg : Vec3{};
+}
+
+MachineFault make_fault(FaultKind kind, std::string_view detail) {
+  MachineFault fault{kind, 0, "Machine fault"};
+  switch (kind) {
+#define FITGAUGE_FAULT(known, number, text) \
+  case FaultKind::known:                    \
+    fault = {kind, number, text};           \
+    break;
+#include "nc/machine/fault_kinds.inc"
+#undef FITGAUGE_FAULT
+    default: break;
+  }
+  if (!detail.empty()) fault.text += fmt::format(": {}", detail);
+  return fault;
+}
+
+void throw_bad_machine_result(const MachineFault& fault) {
+  throw std::logic_error(
+      fmt::format("value of a failed command of the control was read: {}", fault.text));
 }
 
 }  // namespace fitgauge::machine

@@ -1,6 +1,6 @@
 #include "nc/machine/simulated_machine.hpp"
 
-#include "nc/machine/sphere_tracing.hpp"
+#include "nc/machine/solid.hpp"
 
 namespace fitgauge::machine {
 namespace {

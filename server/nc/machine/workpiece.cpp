@@ -1,7 +1,6 @@
 #include "nc/machine/workpiece.hpp"
 
 #include "nc/machine/solid.hpp"
-#include "nc/machine/sphere_tracing.hpp"
 
 namespace fitgauge::machine {
 namespace {

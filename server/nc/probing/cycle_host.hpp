@@ -1,12 +1,72 @@
 #pragma once
 
 #include "base/clock.hpp"
+#include "metrology/gauging/gauge.hpp"
 #include "nc/machine/machine.hpp"
 #include "nc/probing/cycle_descriptor.hpp"
-#include "nc/probing/cycle_fault.hpp"
-#include "nc/probing/measuring_record.hpp"
 
 namespace fitgauge::probing {
+
+/// Limits of a measured value; both belong to the good values.
+struct Limits {
+  Length upper;
+  Length lower;
+
+  friend bool operator==(const Limits&, const Limits&) = default;
+};
+
+/// One size, coordinate or position a cycle has measured.
+struct MeasuredSize {
+  std::string_view characteristic{};  ///< "diameter", "centre main axis": constant text
+  iso286::Feature feature = iso286::Feature::Hole;
+  bool is_position = false;  ///< of a centre: without feature of size, out of tolerance is reject
+  Length nominal{};
+  Length measured{};
+  std::optional<Limits> limits{};             ///< nothing when the block switches the check off
+  std::optional<Length> uncertainty{};        ///< standard uncertainty, if it decides
+  std::optional<gauging::Verdict> verdict{};  ///< nothing without limits
+
+  /// Its uncertainty makes a guard band.
+  gauging::DecisionRule rule() const;
+};
+
+/// The judgement of form that the number of points of a circular feature allows.
+struct Form {
+  bool assessable = false;
+  std::string reason{};                 ///< deviations that stay invisible
+  std::optional<double> residual_mm{};  ///< largest distance of a point from the fitted circle
+  double diameter_factor = 1;  ///< standard deviation of the diameter divided by that of one touch
+  std::size_t points = 0;
+  double start_angle_deg = 0;                    ///< of the first point, from the main axis
+  std::optional<double> touch_uncertainty_um{};  ///< standard uncertainty, if the setup states it
+  /// Range of the points' distances from the centre: a lower bound of the roundness. None for three
+  /// points, which always are on a circle.
+  std::optional<Length> deviation{};
+};
+
+/// The quantity that a cycle measures.
+constexpr gauging::Quantity quantity_of(int cycle, bool is_position) {
+  using gauging::Quantity;
+  if (is_position || cycle == 427) return Quantity::Position;
+  if (cycle == 444) return Quantity::Deviation;
+  const bool is_width = (cycle >= 408 && cycle <= 411) || (cycle >= 423 && cycle <= 426) ||
+                        cycle == 1404 || cycle == 1434;
+  return is_width ? Quantity::Width : Quantity::Diameter;
+}
+
+/// The outcome of a measuring cycle, stored with the run.
+struct MeasuringRecord {
+  std::uint16_t cycle = 0;
+  std::vector<MeasuredSize> sizes{};          ///< sizes, then positions; none for 0 and 1
+  bool has_status = false;                    ///< its verdict is the run's until the next one
+  std::optional<gauging::Verdict> verdict{};  ///< of the whole cycle; nothing without limits
+  std::optional<Form> form{};                 ///< of circular features
+};
+
+/// Judges the diameter with its uncertainty, if the setup states the uncertainty of a touch. The
+/// worst verdict becomes the verdict of the cycle. The control knows no uncertainty: its parameters
+/// and its log do not change.
+void judge_by_uncertainty(MeasuringRecord& record);
 
 /// Cycle 441, modal until the program ends.
 struct FastProbing {
@@ -86,5 +146,51 @@ class CycleHost {
   /// Replaces them. @errors when the run's output budget is used up.
   virtual CycleResult<void> keep_kinematics(const KinematicsRecords& records) = 0;
 };
+
+/// The kind of a value, which decides the meaning of "out of tolerance".
+enum class ValueRole : std::uint8_t {
+  HoleSize,   ///< too small is rework, too large is reject
+  ShaftSize,  ///< too large is rework, too small is reject
+  Position,   ///< either side is reject (decision 1)
+};
+
+/// A measured value of a cycle with its texts for results, status, log and record. Lengths in whole
+/// nanometres: the unit of comparisons with limits (decision 13) and of Q parameters (decision 21).
+struct MeasuredValue {
+  std::string_view characteristic{};  ///< "Diameter", as in the log
+  ValueRole role = ValueRole::HoleSize;
+  Length nominal{};
+  Length measured{};
+  std::optional<Limits> limits{};
+  std::uint16_t result_q = 0;     ///< receives the measured value; 0 is none
+  std::uint16_t deviation_q = 0;  ///< receives the deviation; 0 is none
+  int error_too_large = 1072;     ///< of Q309
+  int error_too_small = 1072;
+  bool is_position = false;  ///< a face: judged as a size, by the side of its material
+
+  Length deviation() const { return measured - nominal; }
+  /// Limits are inclusive (decision 1); without limits every value is good.
+  gauging::Verdict verdict() const;
+  /// The error of Q309 when the value is out of tolerance, else 0.
+  int error() const;
+};
+
+/// A length in the nearest nanometre. @pre finite and within 1e12 mm.
+Length to_length(double mm);
+
+/// Results in mm, to the nanometre, in consecutive parameters.
+void set_lengths(CycleHost& host, std::size_t first, std::initializer_list<double> mm);
+
+constexpr Length magnitude(Length length) { return length < Length{} ? -length : length; }
+
+/// An angle as Q parameters get it, to 1e-7 degrees (1 nm at 0.5 m), so that equal ones are equal.
+double to_angle(double degrees);
+
+/// The limits of a size from its two parameters; both 0 switch the check off.
+/// @errors 1016 the maximum is less than the minimum.
+CycleResult<std::optional<Limits>> size_limits(const Arguments& arguments, int max_q, int min_q);
+
+/// Nominal position ± tolerance; a tolerance of 0 switches the check off (decision 21).
+std::optional<Limits> position_limits(Length nominal, Length tolerance);
 
 }  // namespace fitgauge::probing

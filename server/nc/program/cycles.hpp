@@ -1,6 +1,6 @@
 #pragma once
 
-#include "nc/probing/touch_probe_cycle.hpp"
+#include "nc/probing/cycles.hpp"
 #include "nc/program/parameter.hpp"
 
 namespace fitgauge::interpreter {

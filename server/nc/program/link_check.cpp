@@ -6,7 +6,6 @@
 #include "nc/probing/cycles.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
-#include "nc/program/system_addresses.hpp"
 #include "nc/program/word_senses.hpp"
 
 namespace fitgauge::interpreter {

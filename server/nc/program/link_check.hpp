@@ -26,7 +26,7 @@ void check_block(const Program& program, std::uint32_t block, std::vector<Diagno
 /// assignment. Then drops the findings that a comment switches off.
 void check_contradictions(const Program& program, std::vector<Diagnostic>& diagnostics);
 
-// blank_form.cpp
+// diagnose.cpp
 /// A fault of a program that no other calls: the caller may give the corner.
 inline constexpr std::string_view kNoLowerCorner =
     "BLK FORM 0.2 stands without BLK FORM 0.1 before it";
@@ -44,5 +44,25 @@ std::vector<std::string> blank_faults(const Program& program, const klartext::Bl
 
 /// Whether the block has a fault, or may have one with values of the run.
 bool may_have_blank_fault(const Program& program, const klartext::Block& block);
+
+/// An ID of FN 18: SYSREAD, and its NR; none listed: the NR is a row.
+struct SystemGroup {
+  int id = 0;
+  std::span<const int> numbers;
+  bool is_written = false;  ///< FN 17: SYSWRITE too
+};
+
+std::span<const SystemGroup> system_groups();
+
+/// Whether this control has system data; without a number, whether it has any of the ID.
+bool has_system_data(int id, std::optional<int> number, bool writes);
+
+/// Whether data that need an index, most of them an axis, have this one.
+bool has_index(int id, int number, std::optional<int> index);
+
+/// What the run needs for data, beside their index.
+enum class SystemNeed : std::uint8_t { Nothing, Cycle, Text, Probe, Touch };
+
+SystemNeed need_of(int id, int number);
 
 }  // namespace fitgauge::interpreter

@@ -69,7 +69,6 @@ class ProgramCache {
   std::size_t bytes_ = 0;
 };
 
-// check.cpp
 /// Returns all findings in a program and every program that it names literally, without running
 /// anything. Errors prevent a run; warnings are failures of a block that may be reached: a missing
 /// program, table or mask, an unavailable cycle or M function, an ERROR block. Programs that are

@@ -1,4 +1,4 @@
-#include "nc/program/system_addresses.hpp"
+#include "nc/program/link_check.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

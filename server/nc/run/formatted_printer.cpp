@@ -1,5 +1,3 @@
-#include "nc/run/formatted_printer.hpp"
-
 #include "nc/run/values.hpp"
 #include "tables/tabfile/characters.hpp"
 

@@ -113,8 +113,9 @@ NcResult<void> mill_rectangular_stud(Machining& cycle);
 NcResult<void> mill_circular_stud(Machining& cycle);
 NcResult<void> engrave(Machining& cycle);
 
-// face_milling.cpp
-/// 232. @errors 1002 the tool has no radius.
+// machining.cpp
+/// 232, by page 236 of the TNC 640 manual 34059x-01; that Q389 = 1 steps over at the feed for
+/// milling is of page 298 of the TNC 320 manual 340 551-02. @errors 1002 the tool has no radius.
 NcResult<void> mill_face(Machining& cycle);
 
 // contour_pocket.cpp

@@ -58,7 +58,6 @@ NcResult<void> position(Channel& channel, const klartext::Motion& motion, const 
 /// @errors AxisMissing for U, V, W, which the simulated machine does not have.
 NcResult<machine::Axis> machine_axis(Letter letter);
 
-// tool_orientation.cpp
 /// A, B and C as spatial angles of the tool (FUNCTION TCPM AXIS SPAT), each as it was programmed
 /// last.
 using SpatialAngles = std::array<std::optional<double>, 3>;

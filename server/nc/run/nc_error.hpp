@@ -1,6 +1,6 @@
 #pragma once
 
-#include "nc/probing/cycle_fault.hpp"
+#include "nc/probing/cycle_descriptor.hpp"
 
 namespace fitgauge::interpreter {
 

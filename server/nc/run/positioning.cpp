@@ -1,4 +1,4 @@
-#include "nc/klartext/parser_words.hpp"
+#include "nc/klartext/block_reader.hpp"
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {

@@ -3,7 +3,6 @@
 #include "nc/klartext/lexer.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/linked_program.hpp"
-#include "nc/run/run_files.hpp"
 
 namespace fitgauge::interpreter {
 

@@ -13,9 +13,6 @@ struct Next {
   std::shared_ptr<const LinkedProgram> program = nullptr;  ///< of CallProgram
 };
 
-/// Runs the block of an Op::Statement.
-NcResult<Next> execute_statement(Channel& channel, const Instruction& instruction);
-
 // executor.cpp
 /// End of a run's code.
 struct Ending {
@@ -47,7 +44,6 @@ NcResult<void> execute(Channel& channel, const klartext::TableWrite& write);
 NcResult<void> execute(Channel& channel, const klartext::TableRead& read);
 NcResult<void> execute(Channel& channel, const klartext::SelectTable& select);
 
-// exec_output.cpp
 NcResult<void> execute(Channel& channel, const klartext::ErrorStop& stop);
 NcResult<void> execute(Channel& channel, const klartext::Print& print);
 NcResult<void> execute(Channel& channel, const klartext::FormattedPrint& print);
@@ -63,17 +59,6 @@ NcResult<Next> execute(Channel& channel, const klartext::MFunctions& functions);
 NcResult<Next> execute(Channel& channel, const klartext::Stop& stop);
 NcResult<void> execute(Channel& channel, const klartext::Dwell& dwell);
 
-// exec_cycles.cpp
-NcResult<Next> execute(Channel& channel, const klartext::Cycle& cycle, const BoundCycle& bound);
-NcResult<Next> execute_parts(Channel& channel, std::uint32_t first, std::uint32_t last);
-NcResult<Next> execute(Channel& channel, const klartext::CycleCall& call);
-/// The cycle that M99, M89 and CYCL CALL run at the current position.
-NcResult<Next> call_active_cycle(Channel& channel);
-
-// patterns.cpp
-NcResult<void> execute(Channel& channel, const klartext::PatternDefinition& pattern);
-
-// m_functions.cpp
 /// M functions with effect at the start of the block: spindle and coolant on, TCPM.
 NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& calls);
 
@@ -84,6 +69,16 @@ NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words);
 /// M140 MB, and MB of PLANE: away from the workpiece along the tool axis, in rapid traverse without
 /// a feed.
 NcResult<void> retract(Channel& channel, const MCall& call);
+
+// exec_cycles.cpp
+NcResult<Next> execute(Channel& channel, const klartext::Cycle& cycle, const BoundCycle& bound);
+NcResult<Next> execute_parts(Channel& channel, std::uint32_t first, std::uint32_t last);
+NcResult<Next> execute(Channel& channel, const klartext::CycleCall& call);
+/// The cycle that M99, M89 and CYCL CALL run at the current position.
+NcResult<Next> call_active_cycle(Channel& channel);
+
+// patterns.cpp
+NcResult<void> execute(Channel& channel, const klartext::PatternDefinition& pattern);
 
 // exec_frames.cpp
 NcResult<void> execute(Channel& channel, const klartext::Trans& trans);

@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-#include "nc/probing/measuring_record.hpp"
+#include "nc/probing/cycle_host.hpp"
 #include "nc/program/control_disk.hpp"
 #include "plant/settings.hpp"
 #include "service/files/file_service.hpp"

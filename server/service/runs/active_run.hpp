@@ -2,7 +2,7 @@
 
 #include "base/thread.hpp"
 #include "nc/machine/axis.hpp"
-#include "nc/run/run_result.hpp"
+#include "nc/run/run_log.hpp"
 #include "service/runs/stored_run.hpp"
 
 namespace fitgauge::app {

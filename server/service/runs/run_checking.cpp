@@ -2,7 +2,7 @@
 #include "db/store/stores.hpp"
 #include "nc/iso/parser.hpp"
 #include "nc/klartext/mask_file.hpp"
-#include "nc/klartext/printer.hpp"
+#include "nc/klartext/parser.hpp"
 #include "nc/program/program_cache.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/runs/run_service.hpp"

@@ -2,10 +2,7 @@
 
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/program/program_cache.hpp"
-#include "nc/run/call_stack.hpp"
-#include "nc/run/q_parameters.hpp"
-#include "nc/run/run_files.hpp"
-#include "nc/run/run_log.hpp"
+#include "nc/run/channel.hpp"
 
 namespace fitgauge::app {
 namespace {

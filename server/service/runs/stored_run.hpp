@@ -1,9 +1,9 @@
 #pragma once
 
 #include "base/gzip.hpp"
+#include "nc/machine/control.hpp"
 #include "nc/machine/machine_setup.hpp"
 #include "nc/machine/scripted_machine.hpp"
-#include "nc/machine/traced_move.hpp"
 #include "nc/run/interpreter.hpp"
 #include "record/measurement.hpp"
 #include "service/storage.hpp"

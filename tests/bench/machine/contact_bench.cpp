@@ -7,7 +7,7 @@
 #include <ctime>
 
 #include "nc/machine/random.hpp"
-#include "nc/machine/sphere_tracing.hpp"
+#include "nc/machine/solid.hpp"
 #include "nc/machine/workpiece.hpp"
 
 using namespace fitgauge::machine;

@@ -6,7 +6,6 @@
 
 #include "golden_case.hpp"
 #include "nc/iso/parser.hpp"
-#include "nc/iso/printer.hpp"
 #include "nc/program/program_cache.hpp"
 
 namespace fitgauge::interpreter::golden {

@@ -5,9 +5,7 @@
 #include <random>
 
 #include "nc/iso/parser.hpp"
-#include "nc/iso/printer.hpp"
 #include "nc/klartext/parser.hpp"
-#include "nc/klartext/printer.hpp"
 #include "program_generator.hpp"
 #include "support/same_program.hpp"
 

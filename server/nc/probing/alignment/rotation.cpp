@@ -1,7 +1,5 @@
 #include "nc/probing/alignment/rotation.hpp"
 
-#include "nc/probing/measured_value.hpp"
-
 namespace fitgauge::probing {
 
 using machine::CoordinateSystem;

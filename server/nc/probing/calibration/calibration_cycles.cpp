@@ -3,7 +3,7 @@
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/log/measuring_log.hpp"
 #include "nc/probing/parameters.hpp"
-#include "nc/probing/touch/circle_probing.hpp"
+#include "nc/probing/touch/probing_motion.hpp"
 
 namespace fitgauge::probing::calibration_cycles {
 

@@ -1,7 +1,6 @@
 #include "nc/probing/kinematics/measurement.hpp"
 
 #include "nc/machine/tolerance.hpp"
-#include "nc/probing/measured_value.hpp"
 
 namespace fitgauge::probing {
 namespace {

@@ -1,6 +1,4 @@
-#include "nc/probing/kinematics/probing.hpp"
-
-#include "nc/probing/touch/fits.hpp"
+#include "nc/probing/kinematics/measurement.hpp"
 
 namespace fitgauge::probing {
 namespace {

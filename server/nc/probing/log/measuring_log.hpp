@@ -1,7 +1,6 @@
 #pragma once
 
-#include "nc/probing/measured_value.hpp"
-#include "nc/probing/touch_probe_cycle.hpp"
+#include "nc/probing/cycles.hpp"
 
 namespace fitgauge::probing {
 

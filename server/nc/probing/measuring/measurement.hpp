@@ -1,7 +1,6 @@
 #pragma once
 
-#include "nc/probing/measured_value.hpp"
-#include "nc/probing/touch/circle_probing.hpp"
+#include "nc/probing/touch/probing_motion.hpp"
 
 namespace fitgauge::probing {
 

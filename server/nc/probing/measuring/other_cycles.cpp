@@ -2,7 +2,6 @@
 #include "nc/probing/log/measuring_log.hpp"
 #include "nc/probing/measuring/measurement.hpp"
 #include "nc/probing/parameters.hpp"
-#include "nc/probing/touch/line_probing.hpp"
 
 namespace fitgauge::probing::other_cycles {
 

@@ -2,9 +2,8 @@
 #include "nc/machine/tolerance.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/log/measuring_log.hpp"
-#include "nc/probing/object/dimension.hpp"
+#include "nc/probing/object/object_cycle.hpp"
 #include "nc/probing/parameters.hpp"
-#include "nc/probing/touch/probing_motion.hpp"
 
 namespace fitgauge::probing::probing_3d {
 

@@ -1,8 +1,6 @@
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/measuring/measurement.hpp"
 #include "nc/probing/parameters.hpp"
-#include "nc/probing/touch/circle_probing.hpp"
-#include "nc/probing/touch/line_probing.hpp"
 
 namespace fitgauge::probing::size_cycles {
 

@@ -1,4 +1,4 @@
-#include "nc/probing/object/dimension.hpp"
+#include "nc/probing/object/object_cycle.hpp"
 
 #include "tables/iso286/table_data.hpp"
 #include "tables/iso286/tolerance_tables.hpp"

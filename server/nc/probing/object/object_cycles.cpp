@@ -2,7 +2,6 @@
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/measuring/measurement.hpp"
 #include "nc/probing/object/object_cycle.hpp"
-#include "nc/probing/touch/circle_probing.hpp"
 
 namespace fitgauge::probing::object_cycles {
 

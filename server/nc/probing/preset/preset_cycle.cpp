@@ -1,8 +1,6 @@
 #include "nc/probing/preset/preset_cycle.hpp"
 
 #include "nc/probing/alignment/rotation.hpp"
-#include "nc/probing/measured_value.hpp"
-#include "nc/probing/touch/line_probing.hpp"
 
 namespace fitgauge::probing {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "nc/probing/parameters.hpp"
-#include "nc/probing/touch/circle_probing.hpp"
+#include "nc/probing/touch/probing_motion.hpp"
 
 namespace fitgauge::probing {
 

@@ -1,9 +1,6 @@
 #include "nc/probing/alignment/rotation.hpp"
 #include "nc/probing/cycles.hpp"
-#include "nc/probing/measured_value.hpp"
 #include "nc/probing/preset/preset_cycle.hpp"
-#include "nc/probing/touch/circle_probing.hpp"
-#include "nc/probing/touch/line_probing.hpp"
 
 namespace fitgauge::probing::preset_cycles {
 

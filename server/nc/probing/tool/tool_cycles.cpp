@@ -1,5 +1,4 @@
 #include "nc/probing/cycles.hpp"
-#include "nc/probing/measured_value.hpp"
 #include "nc/probing/tool/tool_measuring.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 

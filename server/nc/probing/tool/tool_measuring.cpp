@@ -1,7 +1,6 @@
 #include "nc/probing/tool/tool_measuring.hpp"
 
 #include "nc/machine/tolerance.hpp"
-#include "nc/probing/measured_value.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 
 namespace fitgauge::probing {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "nc/probing/cycles.hpp"
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/fits.hpp"
-#include "nc/probing/touch_probe_cycle.hpp"
 
 namespace fitgauge::probing {
 

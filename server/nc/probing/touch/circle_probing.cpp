@@ -1,8 +1,6 @@
-#include "nc/probing/touch/circle_probing.hpp"
+#include "nc/probing/touch/probing_motion.hpp"
 
 #include <ranges>
-
-#include "nc/probing/measured_value.hpp"
 
 namespace fitgauge::probing {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "nc/machine/geometry.hpp"
-#include "nc/probing/cycle_fault.hpp"
+#include "nc/probing/cycle_descriptor.hpp"
 
 namespace fitgauge::probing {
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "nc/probing/cycles.hpp"
 #include "nc/probing/touch/fits.hpp"
-#include "nc/probing/touch_probe_cycle.hpp"
 
 namespace fitgauge::probing {
 
@@ -132,5 +132,160 @@ CycleResult<void> refuse_mirror_and_scaling(const machine::Frames& frames);
 /// Sets Q115 to Q119 and notifies the host, after every programmed touch.
 void publish_touch(const machine::MachineState& state, CycleHost& host,
                    const machine::ContactPoint& contact);
+
+enum class Side : std::uint8_t { Inside, Outside };
+
+/// Plan for touching a circle in the plane and its coordinates; degrees from the main axis.
+struct CirclePlan {
+  Side side = Side::Inside;
+  Point2 centre;
+  double diameter = 0;
+  double start_angle = 0;
+  double step = 90;
+  int points = 4;
+  double height = 0;           ///< of the ball centre (Q261)
+  double start_distance = 0;   ///< ball centre to nominal contact
+  bool via_clearance = false;  ///< Q301
+  bool on_arc = true;          ///< Q365; a chord between the points would cut a stud
+};
+
+/// The touches in order. A hole too small for the start distance is touched from its centre,
+/// without moves between the points.
+std::vector<Touch> circle_touches(const CirclePlan& plan);
+
+std::vector<Point2> ball_centres(std::span<const Contact> contacts);
+std::vector<Vec3> centres_in_space(std::span<const Contact> contacts);
+
+/// The circle through the ball centres, widened (inside) or narrowed (outside) by the ball's
+/// radius: compensating each touch along its probing direction would be wrong for a hole off its
+/// nominal centre (decision 20).
+/// @errors 1081.
+CycleResult<Circle> circle_through(std::span<const Contact> contacts, Side side,
+                                   double ball_radius);
+
+/// Returns the form by the points, and the certainty of the circle's diameter.
+Form circle_form(std::span<const Point2> points, const Circle& circle, double start_angle);
+
+struct ProbedCircle {
+  Circle circle;  ///< of the surface
+  Form form;
+};
+
+/// Touches the circle of the parameters that 405, 412, 413, 421 and 422 have in common: Q262, Q325,
+/// Q247, Q261, Q320, Q260, Q301, Q423, Q365.
+/// @errors 1066, 1067 for a step angle of less than 5 degrees; 1081.
+CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotion& motion,
+                                       Side side, Point2 centre);
+
+/// Returns the centres of holes near the given points. It touches each hole four times from there,
+/// along the axes of the plane at measuring height (Q261), and moves between holes at the clearance
+/// height (Q260).
+/// @errors 1014 a hole is wider than DIST reaches, 1081.
+CycleResult<std::vector<Point2>> probe_hole_centres(const CycleContext& context,
+                                                    ProbingMotion& motion,
+                                                    std::span<const Point2> nominal);
+
+/// The circle through three holes around Q273 and Q274, by Q262, Q291 to Q293, Q261 and Q260.
+CycleResult<ProbedCircle> probe_bolt_circle(const CycleContext& context, ProbingMotion& motion);
+
+struct Rectangle {
+  Point2 centre;
+  std::array<double, 2> length{};  ///< along main and secondary axis
+};
+
+/// Touches the rectangle of that nominal centre and length (main, secondary axis) by Q261, Q320,
+/// Q260 and Q301: along the axes of the plane, twice along each, through its nominal centre;
+/// paraxially at measuring height or over the clearance height. A pocket too small for the start
+/// distance is touched from its centre.
+CycleResult<Rectangle> probe_rectangle(const CycleContext& context, ProbingMotion& motion,
+                                       Side side, Point2 centre,
+                                       const std::array<double, 2>& length);
+
+/// The two touches along one axis (0 main, 1 secondary) of a slot, pocket, ridge or stud of the
+/// nominal width around its centre, first the one at the higher coordinate.
+std::array<Touch, 2> width_touches(Side side, const Vec3& centre, std::size_t axis, double width,
+                                   double start_distance);
+
+/// A place that a cycle touches around.
+struct PlannedPlace {
+  Side side = Side::Inside;
+  Vec3 centre;                                    ///< in plane coordinates
+  double diameter = 0;                            ///< Q262, if the cycle has it
+  std::optional<std::array<double, 2>> length{};  ///< of what is not round; 0: not known
+  std::string other_side{};                       ///< the remedy if the part has the other side
+};
+
+/// Adds to the error of a touch the bore, pocket or boss of the setup at the first place that has
+/// another than the cycle expects, and the remedy: the cycle for it, or the diameter that is
+/// written.
+CycleFault with_part(CycleFault fault, const CycleContext& context, const WorkingPlane& plane,
+                     std::span<const PlannedPlace> places);
+
+/// Touches around a place as ProbingMotion::touch_all, with the clearance height Q260. @errors with
+/// the part that is there.
+CycleResult<std::vector<Contact>> touch_part(const CycleContext& context, ProbingMotion& motion,
+                                             std::span<const Touch> touches,
+                                             const PlannedPlace& place);
+
+/// The place of a slot or ridge whose width lies along an axis of the plane.
+PlannedPlace width_place(Side side, const Vec3& centre, std::size_t axis, double width);
+
+/// A straight edge or face touched twice along one axis, in plane coordinates.
+struct ProbedLine {
+  Vec3 first;  ///< ball centres: the line through them is parallel to the edge
+  Vec3 second;
+  std::size_t axis = 0;    ///< the touched axis: 0 main, 1 secondary, 2 probe axis
+  std::size_t across = 1;  ///< the axis along which the line runs
+
+  /// Coordinate of each point along the axis it was touched in.
+  struct Coordinate {
+    double nominal = 0;
+    double measured = 0;
+  };
+  std::array<Coordinate, 2> coordinates{};
+
+  /// Returns the angle of the line to the main axis if the line is in the plane: -90 < angle <= 90
+  /// for a line along the main axis and 0 < angle <= 180 for a line across it, so that neither
+  /// jumps near its nominal value. For a line touched in the probe axis, returns its slope along
+  /// `across`.
+  double angle_deg() const;
+  Vec3 direction() const { return second - first; }
+};
+
+/// Touches the line of the parameters Q263 to Q266, Q272, Q267, Q261, Q320, Q260, Q301.
+/// @errors 1042 no direction, 1081 both points are the same.
+CycleResult<ProbedLine> probe_line(const CycleContext& context, ProbingMotion& motion);
+
+/// Q267. @errors 1042 it is 0.
+CycleResult<int> probing_direction(const Arguments& arguments);
+
+struct TouchedCoordinate {
+  std::size_t axis = 0;  ///< 0 main, 1 secondary, 2 probe axis (Q272)
+  Vec3 nominal;          ///< Q263, Q264, Q261
+  Vec3 surface;          ///< in plane coordinates
+};
+
+/// One touch along an axis at Q263, Q264, Q261 in the direction Q267, as 419 and 427 make it.
+/// @errors 1042 no direction.
+CycleResult<TouchedCoordinate> touch_coordinate(const CycleContext& context, ProbingMotion& motion);
+
+/// One touch at a point against the probe axis, as in 417 and for Q381.
+CycleResult<Vec3> touch_down(const CycleContext& context, ProbingMotion& motion,
+                             const Vec3& nominal);
+
+struct Corner {
+  Point2 point;    ///< intersection of the two edges
+  Vec3 direction;  ///< of the first edge
+};
+
+/// The corner of two edges, each touched twice: the first two touches on the edge along the main
+/// axis, the others on the edge along the secondary axis. Each edge is one ball radius from the
+/// line through its ball centres, so that a turned part is compensated along its normals.
+/// @errors 1081 the edges are parallel or their points coincide.
+CycleResult<Corner> corner_of(std::span<const Contact> contacts, std::span<const Touch> touches,
+                              double ball_radius);
+
+/// Intersection of the lines a1-a2 and b1-b2. @errors 1081 they are parallel.
+CycleResult<Point2> intersection(Point2 a1, Point2 a2, Point2 b1, Point2 b2);
 
 }  // namespace fitgauge::probing

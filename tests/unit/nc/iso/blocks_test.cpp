@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "nc/iso/parser.hpp"
-#include "nc/klartext/printer.hpp"
+#include "nc/klartext/parser.hpp"
 
 namespace fitgauge::iso {
 namespace {

@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include "nc/iso/parser.hpp"
-#include "nc/iso/printer.hpp"
 
 namespace fitgauge::iso {
 namespace {

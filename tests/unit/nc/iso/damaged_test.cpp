@@ -5,7 +5,7 @@
 #include <random>
 
 #include "nc/iso/parser.hpp"
-#include "nc/klartext/printer.hpp"
+#include "nc/klartext/parser.hpp"
 #include "support/same_program.hpp"
 
 namespace fitgauge::iso {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "nc/klartext/parser.hpp"
-#include "nc/klartext/printer.hpp"
 
 namespace fitgauge::klartext {
 

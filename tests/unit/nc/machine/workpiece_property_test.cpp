@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "nc/machine/random.hpp"
-#include "nc/machine/sphere_tracing.hpp"
+#include "nc/machine/solid.hpp"
 #include "nc/machine/workpiece.hpp"
 #include "unit/nc/machine/meshes.hpp"
 #include "unit/nc/machine/vec_check.hpp"

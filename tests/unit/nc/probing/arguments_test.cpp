@@ -1,4 +1,4 @@
-#include "nc/probing/arguments.hpp"
+#include "nc/probing/cycle_descriptor.hpp"
 
 #include <doctest/doctest.h>
 

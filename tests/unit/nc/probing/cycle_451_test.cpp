@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
 
 #include "kinematics_bench.hpp"
+#include "nc/probing/cycle_host.hpp"
 #include "nc/probing/kinematics/measurement.hpp"
-#include "nc/probing/measured_value.hpp"
 
 namespace fitgauge::probing {
 namespace {

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "nc/probing/object/dimension.hpp"
+#include "nc/probing/object/object_cycle.hpp"
 
 namespace fitgauge::probing {
 namespace {

@@ -1,4 +1,4 @@
-#include "nc/run/run_files.hpp"
+#include "nc/run/run_log.hpp"
 
 #include <doctest/doctest.h>
 

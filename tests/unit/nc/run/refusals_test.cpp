@@ -1,4 +1,4 @@
-#include "nc/run/plane_geometry.hpp"
+#include "nc/run/cutter_path.hpp"
 #include "workshop.hpp"
 
 /// The run refuses contradictions, and the check names them.
