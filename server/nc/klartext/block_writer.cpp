@@ -36,8 +36,7 @@ void BlockWriter::number(double number) {
 }
 
 BlockWriter& BlockWriter::parameter(QRef parameter) {
-  constexpr std::string_view kNames[] = {"Q", "QL", "QR", "QS"};
-  return write(kNames[static_cast<std::size_t>(parameter.space)])
+  return write(word_of(parameter.space, {"Q", "QL", "QR", "QS"}))
       .write(std::to_string(parameter.number));
 }
 

@@ -37,12 +37,9 @@ std::string_view shown(std::string_view line) { return first_characters(line, kL
 
 }  // namespace
 
-std::string_view word(Severity severity) {
-  constexpr std::string_view kWords[] = {"note", "warning", "error"};
-  return kWords[static_cast<std::size_t>(severity)];
-}
+std::string_view word(Severity severity) { return word_of(severity, {"note", "warning", "error"}); }
 
-std::string_view id(DiagnosticCode code) { return kIds[static_cast<std::size_t>(code)]; }
+std::string_view id(DiagnosticCode code) { return word_of(code, kIds); }
 
 bool contains_error(const std::vector<Diagnostic>& diagnostics) {
   return std::ranges::count(diagnostics, Severity::Error, &Diagnostic::severity) > 0;

@@ -77,15 +77,13 @@ Result<ControlPath> ControlPath::parse(std::string_view text) {
   const std::string_view trimmed = trim(text);
   if (!ascii_iequals(trimmed.substr(0, kDrive.size()), kDrive))
     return path_error(text, "does not begin with TNC:\\");
-  auto path = normalise(text, {});
-  if (path.has_error()) return path.error();
-  return ControlPath(std::move(*path));
+  auto path = TRY(normalise(text, {}));
+  return ControlPath(std::move(path));
 }
 
 Result<ControlPath> ControlPath::resolve(std::string_view text, const ControlPath& program) {
-  auto path = normalise(text, program.directory().substr(kDrive.size()));
-  if (path.has_error()) return path.error();
-  return ControlPath(std::move(*path));
+  auto path = TRY(normalise(text, program.directory().substr(kDrive.size())));
+  return ControlPath(std::move(path));
 }
 
 std::string ControlPath::key() const { return ascii_lower(text_); }

@@ -65,12 +65,7 @@ class ChannelCycleHost final : public probing::CycleHost {
   }
 
   void show_and_stop(std::string_view text) override {
-    while (!text.empty()) {
-      const std::size_t end = text.find('\n');
-      keep(channel_.log.print(std::string(text.substr(0, end))));
-      if (end == std::string_view::npos) break;
-      text.remove_prefix(end + 1);
-    }
+    while (!text.empty()) keep(channel_.log.print(std::string(take_field(text, '\n'))));
     stop("measuring log shown on the screen");
   }
 
