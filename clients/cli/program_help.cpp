@@ -188,7 +188,7 @@ std::string setting_hover(const EditedText& text, std::size_t line) {
     return blocks + cycle_hover(*cycle);
   const auto* setting = interpreter::dotted_setting(part->number);
   if (setting == nullptr) return blocks;
-  return fmt::format("**CYCL DEF {} {}** {}\n\n{}", part->number, setting->name, setting->meaning,
+  return fmt::format("**CYCL DEF {} {}** {}\n\n{}", part->number, setting->name, setting->simulated,
                      blocks);
 }
 

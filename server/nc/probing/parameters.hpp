@@ -40,6 +40,24 @@ constexpr CycleParameter angle(Address address, std::string_view meaning, double
           .default_value = by_default};
 }
 
+/// A feed; 0 if the control's dialog allows it.
+constexpr CycleParameter feed(Address address, std::string_view meaning,
+                              std::optional<double> by_default = {}) {
+  return {.id = address.id,
+          .meaning = meaning,
+          .unit = Unit::Feed,
+          .kind = ValueKind::NumberOrMax,
+          .range = {0, kLongest},
+          .default_value = by_default};
+}
+
+/// A number without a unit.
+constexpr CycleParameter plain(Address address, std::string_view meaning, double least, double most,
+                               std::optional<double> by_default = {}) {
+  return {
+      .id = address.id, .meaning = meaning, .range = {least, most}, .default_value = by_default};
+}
+
 /// A whole number of a few; without a default it must be given.
 constexpr CycleParameter choice(Address address, std::string_view meaning, double first,
                                 double last, std::optional<double> by_default = {}) {

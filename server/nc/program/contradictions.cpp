@@ -97,7 +97,7 @@ class Contradictions {
       // `TCH PROBE 0.0 REF. PLANE Q5 X-`
       if (part.family == klartext::CycleFamily::TchProbe)
         dialog = trim(dialog.substr(0, dialog.find(" Q")));
-      if (const CycleDescriptor* cycle = dotted_cycle(part.family, part.number))
+      if (const CycleDescriptor* cycle = cycle_of(part.family, part.number))
         check_dialog(*cycle, dialog);
     }
     const bool is_old = part.number <= 5 || part.number == 17 || part.number == 18;

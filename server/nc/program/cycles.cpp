@@ -6,60 +6,42 @@
 namespace fitgauge::interpreter {
 namespace {
 
-constexpr DottedSetting kDotted[] = {
-    {7, "DATUM SHIFT", "moves the datum along the axes, or by row # of the datum table"},
-    {8, "MIRROR IMAGE", "mirrors the axes that it names; without an axis it ends"},
-    {9, "DWELL TIME", "waits for the seconds"},
-    {10, "ROTATION", "turns the coordinates to ROT; IROT adds to it"},
-    {11, "SCALING", "multiplies lengths by SCL"},
-    {12, "PGM CALL", "makes the program a cycle for CYCL CALL, M99 and M89"},
-    {13, "ORIENTATION", "turns the spindle to ANGLE with M19"},
-    {19, "WORKING PLANE", "tilts the working plane to A, B and C"},
-    {26, "AXIS-SPEC. SCALING", "multiplies lengths by a factor for each axis"},
-    {32, "TOLERANCE", "allows the path to deviate by T"}};
-
-/// Their numbers and names.
-const auto& settings() {
-  static const auto kSettings = [] {
-    std::array<CycleDescriptor, std::size(kDotted)> all{};
-    for (std::size_t i = 0; i < all.size(); ++i)
-      all[i] = {.family = probing::CycleFamily::CyclDef,
-                .number = static_cast<std::uint16_t>(kDotted[i].number),
-                .name = kDotted[i].name,
-                .dotted = true};
-    return all;
-  }();
-  return kSettings;
+constexpr CycleDescriptor setting(std::uint16_t number, std::string_view name,
+                                  std::string_view meaning) {
+  return {.family = probing::CycleFamily::CyclDef,
+          .number = number,
+          .name = name,
+          .dotted = true,
+          .simulated = meaning};
 }
+
+constexpr CycleDescriptor kSettings[] = {
+    setting(7, "DATUM SHIFT", "moves the datum along the axes, or by row # of the datum table"),
+    setting(8, "MIRROR IMAGE", "mirrors the axes that it names; without an axis it ends"),
+    setting(9, "DWELL TIME", "waits for the seconds"),
+    setting(10, "ROTATION", "turns the coordinates to ROT; IROT adds to it"),
+    setting(11, "SCALING", "multiplies lengths by SCL"),
+    setting(12, "PGM CALL", "makes the program a cycle for CYCL CALL, M99 and M89"),
+    setting(13, "ORIENTATION", "turns the spindle to ANGLE with M19"),
+    setting(19, "WORKING PLANE", "tilts the working plane to A, B and C"),
+    setting(26, "AXIS-SPEC. SCALING", "multiplies lengths by a factor for each axis"),
+    setting(32, "TOLERANCE", "allows the path to deviate by T")};
 
 namespace usual = probing::parameter;
 using probing::Unit;
 using probing::ValueKind;
 
-constexpr CycleParameter global_feed(int number, std::string_view meaning) {
-  return {.id = probing::q(number),
-          .meaning = meaning,
-          .unit = Unit::Feed,
-          .kind = ValueKind::NumberOrMax,
-          .range = {0, usual::kLongest}};
-}
-
-constexpr CycleParameter global_number(int number, std::string_view meaning, double least,
-                                       double most) {
-  return {.id = probing::q(number), .meaning = meaning, .range = {least, most}};
-}
-
 constexpr std::array kGeneral{
     usual::length(200, "Set-up clearance"), usual::length(204, "2nd set-up clearance"),
-    global_feed(253, "Feed for pre-positioning"), global_feed(208, "Feed for retraction")};
+    usual::feed(253, "Feed for pre-positioning"), usual::feed(208, "Feed for retraction")};
 constexpr std::array kDrilling{usual::length(256, "Retraction for chip breaking"),
-                               global_number(210, "Dwell time at the top", 0, 3600),
-                               global_number(211, "Dwell time at the depth", 0, 3600)};
-constexpr std::array kPocketMilling{global_number(370, "Path overlap factor", 0, 1.999),
+                               usual::plain(210, "Dwell time at the top", 0, 3600),
+                               usual::plain(211, "Dwell time at the depth", 0, 3600)};
+constexpr std::array kPocketMilling{usual::plain(370, "Path overlap factor", 0, 1.999),
                                     usual::choice(351, "Climb 1 or up-cut -1", -1, 1),
                                     usual::choice(366, "Type of plunging", 0, 2)};
 constexpr std::array kContourMilling{
-    global_number(2, "Path overlap factor", 0.0001, 1.9999), usual::length(6, "Set-up clearance"),
+    usual::plain(2, "Path overlap factor", 0.0001, 1.9999), usual::length(6, "Set-up clearance"),
     usual::coordinate(7, "Clearance height"), usual::choice(9, "Direction of rotation", -1, 1)};
 constexpr std::array kProbing{usual::length(320, "Set-up clearance"),
                               usual::coordinate(260, "Clearance height"),
@@ -142,16 +124,15 @@ const CycleDescriptor* other_cycle(const CycleDescriptor& cycle, std::string_vie
   for (const TouchProbeCycle* other : probing::cycles()) consider(other->descriptor);
   if (!cycle.dotted)
     for (const MachiningCycle& other : machining_cycles()) consider(other.descriptor);
-  for (const CycleDescriptor& other : settings()) consider(other);
+  for (const CycleDescriptor& other : kSettings) consider(other);
   return found;
 }
 
-const CycleDescriptor* dotted_cycle(klartext::CycleFamily family, int number) {
+const CycleDescriptor* cycle_of(klartext::CycleFamily family, int number) {
   if (const auto* cycle = probing_cycle(family, number)) return &cycle->descriptor;
   if (family == klartext::CycleFamily::TchProbe) return nullptr;
   if (const auto* cycle = machining_cycle(number)) return &cycle->descriptor;
-  const auto* found = std::ranges::find(settings(), number, &CycleDescriptor::number);
-  return found == settings().end() ? nullptr : found;
+  return dotted_setting(number);
 }
 
 const TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number) {
@@ -162,16 +143,14 @@ const TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number) {
                              number);
 }
 
-const DottedSetting* dotted_setting(int number) {
-  const auto* found = std::ranges::find(kDotted, number, &DottedSetting::number);
-  return found == std::end(kDotted) ? nullptr : found;
+const CycleDescriptor* dotted_setting(int number) {
+  const auto* found = std::ranges::find(kSettings, number, &CycleDescriptor::number);
+  return found == std::end(kSettings) ? nullptr : found;
 }
 
 bool is_available(klartext::CycleFamily family, int number, bool dotted) {
-  if (const auto* cycle = probing_cycle(family, number)) return cycle->descriptor.dotted == dotted;
-  if (family == klartext::CycleFamily::TchProbe) return false;
-  if (const auto* cycle = machining_cycle(number)) return cycle->descriptor.dotted == dotted;
-  return dotted && dotted_setting(number) != nullptr;
+  const CycleDescriptor* cycle = cycle_of(family, number);
+  return cycle != nullptr && cycle->dotted == dotted;
 }
 
 const CycleDescriptor* global_definition(int number) {

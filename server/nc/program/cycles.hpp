@@ -99,20 +99,14 @@ const CycleParameter* find_parameter(const CycleDescriptor& descriptor, QRef wri
 /// Another cycle of the same family with that name, or null; of two that which is written alike.
 const CycleDescriptor* other_cycle(const CycleDescriptor& cycle, std::string_view name);
 
-/// The cycle of a sub-line, settings included, or null.
-const CycleDescriptor* dotted_cycle(klartext::CycleFamily family, int number);
+/// The cycle that a block or a sub-line names, settings included, or null. Not of GLOBAL DEF.
+const CycleDescriptor* cycle_of(klartext::CycleFamily family, int number);
 
 /// The cycle of the probing library, or null.
 const TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number);
 
-/// A setting in sub-lines: `CYCL DEF 7.0`, `7.1`.
-struct DottedSetting {
-  int number;
-  std::string_view name;
-  std::string_view meaning;
-};
-/// 7 to 13, 19, 26, 32; null for another.
-const DottedSetting* dotted_setting(int number);
+/// A setting in sub-lines, such as `CYCL DEF 7.0`, `7.1`: 7 to 13, 19, 26, 32; null for another.
+const CycleDescriptor* dotted_setting(int number);
 
 /// Whether a block of that cycle can run: cycles of the probing library, the coordinate
 /// transformations written in sub-lines, and machining cycles as motion can.

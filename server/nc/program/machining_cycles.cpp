@@ -8,42 +8,19 @@ namespace {
 using probing::CycleFamily;
 using probing::CycleKind;
 using probing::q;
-using probing::Unit;
 using probing::ValueKind;
+using probing::parameter::choice, probing::parameter::coordinate, probing::parameter::feed,
+    probing::parameter::kLongest, probing::parameter::length, probing::parameter::plain;
 
-constexpr double kLongest = 99999.9999;
-
-constexpr CycleParameter coordinate(int number, std::string_view meaning, double value = 0) {
-  return probing::parameter::coordinate(number, meaning, value);
-}
-constexpr CycleParameter length(int number, std::string_view meaning, double value = 0) {
-  return probing::parameter::length(number, meaning, value);
-}
 constexpr CycleParameter angle(int number, std::string_view meaning, double value = 0) {
   return probing::parameter::angle(number, meaning, kLongest, value);
 }
-/// A feed, also MAX, AUTO, FU and FZ; 0 if the control's dialog allows it.
-constexpr CycleParameter feed(int number, std::string_view meaning, double value = 0) {
-  return {.id = q(number),
-          .meaning = meaning,
-          .unit = Unit::Feed,
-          .kind = ValueKind::NumberOrMax,
-          .range = {0, kLongest},
-          .default_value = value};
-}
-constexpr CycleParameter choice(int number, std::string_view meaning, double first, double last,
-                                double value = 0) {
-  return probing::parameter::choice(number, meaning, first, last, value);
-}
 constexpr CycleParameter count(int number, std::string_view meaning, double value) {
-  return probing::parameter::choice(number, meaning, 0, 99999, value);
-}
-constexpr CycleParameter plain(int number, std::string_view meaning, double least, double most,
-                               double value) {
-  return {.id = q(number), .meaning = meaning, .range = {least, most}, .default_value = value};
+  return choice(number, meaning, 0, 99999, value);
 }
 
-/// Every parameter of these cycles once: a number means the same in each of them.
+/// Every parameter of these cycles once: a number means the same in each of them. The default of a
+/// number is 0 if there is no other.
 constexpr CycleParameter kParameters[] = {
     coordinate(1, "Milling depth"),
     plain(2, "Path overlap factor", 0.0001, 1.9999, 1),
@@ -173,9 +150,11 @@ constexpr CycleParameter kParameters[] = {
     length(517, "Diameter of the text's circle", 50),
     length(574, "Longest text")};
 
-constexpr const CycleParameter& find(int number) {
-  for (const CycleParameter& parameter : kParameters) {
-    if (parameter.id == q(number)) return parameter;
+constexpr CycleParameter find(int number) {
+  for (CycleParameter parameter : kParameters) {
+    if (parameter.id != q(number)) continue;
+    if (!parameter.is_text() && !parameter.default_value) parameter.default_value = 0;
+    return parameter;
   }
   throw "a parameter that the table does not have";  // at compile time
 }

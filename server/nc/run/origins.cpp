@@ -46,11 +46,7 @@ std::vector<QRef> read_by(const Program& program, const Block& block, const std:
 
 const CycleDescriptor* descriptor_of(const Block& block) {
   const auto* cycle = as<klartext::Cycle>(block);
-  if (cycle == nullptr) return nullptr;
-  if (const auto* probing = probing_cycle(cycle->family, cycle->number))
-    return &probing->descriptor;
-  const auto* machining = machining_cycle(cycle->number);
-  return machining == nullptr ? nullptr : &machining->descriptor;
+  return cycle == nullptr ? nullptr : cycle_of(cycle->family, cycle->number);
 }
 
 bool sets(const Program&, const Block& block, QRef parameter) {

@@ -126,18 +126,13 @@ std::string section(const CycleHost& host, const ProbedPoint& point) {
 constexpr std::uint16_t kTolerance = 400;  ///< QS400
 constexpr std::uint16_t kStatus = 183;     ///< -1 no tolerance, 0 good, 1 rework, 2 reject
 
-constexpr CycleParameter normal_component(int number, std::string_view meaning) {
-  return {.id = q(number), .meaning = meaning, .range = {-10, 10}};
-}
-
-constexpr std::array kParameters =
-    list(coordinates(263, "Nominal point, main axis", "Nominal point, secondary axis"),
-         coordinate(294, "Nominal point, probe axis"),
-         normal_component(581, "Surface normal, main axis"),
-         normal_component(582, "Surface normal, secondary axis"),
-         normal_component(583, "Surface normal, probe axis"), kSetUpClearance, kClearanceHeight,
-         tolerance_text("Tolerance along the normal, such as \"0.4-0.1\""),
-         choice(309, "Stop out of tolerance: 0 no, 1 yes, 2 below the lower limit", 0, 2, 0));
+constexpr std::array kParameters = list(
+    coordinates(263, "Nominal point, main axis", "Nominal point, secondary axis"),
+    coordinate(294, "Nominal point, probe axis"), plain(581, "Surface normal, main axis", -10, 10),
+    plain(582, "Surface normal, secondary axis", -10, 10),
+    plain(583, "Surface normal, probe axis", -10, 10), kSetUpClearance, kClearanceHeight,
+    tolerance_text("Tolerance along the normal, such as \"0.4-0.1\""),
+    choice(309, "Stop out of tolerance: 0 no, 1 yes, 2 below the lower limit", 0, 2, 0));
 
 constexpr std::array<CycleOutput, 8> kResults{
     {{151, "Point, main axis", Unit::Length},
