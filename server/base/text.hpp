@@ -65,7 +65,7 @@ bool ascii_iequals(std::string_view a, std::string_view b);
 std::string_view trim(std::string_view text);
 
 /// Removes the text up to the next separator and the separator. @returns the text before it.
-inline std::string_view take_field(std::string_view& rest, char separator) {
+constexpr std::string_view take_field(std::string_view& rest, char separator) {
   const std::string_view text = rest.substr(0, rest.find(separator));
   rest.remove_prefix(std::min(text.size() + 1, rest.size()));
   return text;

@@ -281,12 +281,12 @@ class Contradictions {
     const Senses meant = senses_of(descriptor.name);
     const std::string_view dialog = program_.text(cycle.dialog);
     const bool is_own = check_dialog(descriptor, dialog);
-    if (is_own && contradict(senses_of(dialog), meant, Sense::kOfCycles)) {
+    if (is_own && contradict(senses_of(dialog), meant, kOfCycles)) {
       warn(DiagnosticCode::DialogContradicts, block_->written,
            fmt::format("'{}' contradicts cycle {}, which is {}: correct the number or the text",
                        dialog, descriptor.number, descriptor.name));
     } else if (is_own && other_cycle(descriptor, comment_above()) != nullptr &&
-               contradict(senses_of(comment_above()), meant, std::array{Sense::kSide})) {
+               contradict(senses_of(comment_above()), meant, kSides)) {
       warn(DiagnosticCode::CommentContradicts, block_->written,
            fmt::format("the comment '{}' contradicts cycle {}, which is {}: it would probe from "
                        "the wrong side",
@@ -298,9 +298,9 @@ class Contradictions {
       if (parameter == nullptr || comment.empty()) continue;
       const Senses intended = meant_by(*parameter).title;
       const Senses said = senses_of(comment);
-      if (!contradict(said, intended, Sense::kOfParameters) &&
+      if (!contradict(said, intended, kOfParameters) &&
           !means_other(descriptor, *parameter, comment) &&
-          !contradict(said & ~intended, meant, std::array{Sense::kSide})) {
+          !contradict(said & ~intended, meant, kSides)) {
         continue;
       }
       warn(DiagnosticCode::CommentContradicts, written.written,
@@ -378,8 +378,8 @@ class Contradictions {
       const int lower = static_cast<int>(least.id);
       if (!values.contains(upper) || !values.contains(lower) || value(upper) >= value(lower))
         continue;
-      if ((senses_of(most.meaning) & Sense::kMaximum) == 0 ||
-          (senses_of(least.meaning) & Sense::kMinimum) == 0)
+      if ((senses_of(most.meaning) & senses("maximum")) == 0 ||
+          (senses_of(least.meaning) & senses("minimum")) == 0)
         continue;
       contradicts(values[upper], values[lower],
                   fmt::format("the maximum Q{} = {} lies below the minimum Q{} = {}: exchange them",

@@ -13,8 +13,7 @@ struct Term {
 class Terms {
  public:
   Terms() {
-    using enum Sense::Bit;
-#define FITGAUGE_WORDS(senses, words) add(senses, words);
+#define FITGAUGE_WORDS(names, words) add(interpreter::senses(names), words);
 #include "nc/program/word_senses.inc"
 #undef FITGAUGE_WORDS
     for (auto& terms : by_letter_)
@@ -31,12 +30,10 @@ class Terms {
  private:
   void add(Senses senses, std::string_view words) {
     while (!words.empty()) {
-      const std::size_t end = std::min(words.find('|'), words.size());
-      std::string_view word = words.substr(0, end);
+      std::string_view word = take_field(words, '|');
       const bool is_part = word.front() == '*';
       if (is_part) word.remove_prefix(1);
       by_letter_[static_cast<unsigned char>(word.front())].push_back({word, senses, is_part});
-      words.remove_prefix(std::min(end + 1, words.size()));
     }
   }
 
@@ -44,13 +41,11 @@ class Terms {
 };
 
 /// Senses of the part and the machining, which comments add to any parameter.
-constexpr Senses kAround = Sense::kInside | Sense::kOutside | Sense::kCircle | Sense::kRectangle |
-                           Sense::kDrill | Sense::kScrew | Sense::kPlane | Sense::kCoordinate;
+constexpr Senses kAround =
+    senses("inside outside peg circle rectangle drill screw plane coordinate");
 /// Senses that name no parameter without another.
-constexpr Senses kAdded = Sense::kTop | Sense::kBottom | Sense::kBlank | Sense::kFinish |
-                          Sense::kMilling | Sense::kRetract | Sense::kMaximum | Sense::kMinimum |
-                          Sense::kPosition | Sense::kMode | Sense::kStart | Sense::kStep |
-                          Sense::kLateral;
+constexpr Senses kAdded = senses(
+    "top bottom blank finish milling retract maximum minimum position mode start step lateral");
 
 Senses senses_of_title(const probing::CycleParameter& parameter) {
   return meant_by(parameter).title & ~kAround;
@@ -95,7 +90,7 @@ bool means_other(const probing::CycleDescriptor& cycle, const probing::CyclePara
   const Senses said = senses_of(comment) & ~kAround;
   const Senses own = senses_of_title(parameter);
   // `CLEARANCE HEIGHT` is short for its mode.
-  const bool is_short = said != 0 && said != own && (said | Sense::kMode) == own;
+  const bool is_short = said != 0 && said != own && (said | senses("mode")) == own;
   if (is_title && !is_short && !ascii_iequals(comment, parameter.title())) return true;
   if ((said & ~kAdded) == 0 || own == 0 || (said & ~own & ~meant_by(parameter).choices) == 0)
     return false;

@@ -6,89 +6,45 @@ namespace fitgauge::interpreter {
 
 using Senses = std::uint64_t;
 
-/// Senses of a word in five languages, a bit for each.
-struct Sense {
-  enum Bit : Senses {
-    kInside = 1ULL << 0U,
-    kPeg = 1ULL << 1U,  ///< a word for it that comments also use for its hole
-    kOutside = 1ULL << 2U | kPeg,
-    kCircle = 1ULL << 3U,
-    kRectangle = 1ULL << 4U,
-    kWidth = 1ULL << 5U,
-    kCoordinate = 1ULL << 6U,
-    kPlane = 1ULL << 7U,
-    kAngle = 1ULL << 8U,
-    kMaximum = 1ULL << 9U,
-    kMinimum = 1ULL << 10U,
-    kFirstAxis = 1ULL << 11U,
-    kSecondAxis = 1ULL << 12U,
-    kThirdAxis = 1ULL << 13U,
-    kDiameter = 1ULL << 14U,
-    kHeight = 1ULL << 15U,
-    kTolerance = 1ULL << 16U,
-    kClearance = 1ULL << 17U,
-    kDepth = 1ULL << 18U,
-    kDrill = 1ULL << 19U,
-    kScrew = 1ULL << 20U,
-    kDistance = 1ULL << 21U,
-    kStart = 1ULL << 22U,
-    kStep = 1ULL << 23U,
-    kLog = 1ULL << 24U,
-    kStop = 1ULL << 25U,
-    kTransfer = 1ULL << 26U,
-    kRow = 1ULL << 27U,
-    kLength = 1ULL << 28U,
-    kRadius = 1ULL << 29U,
-    kThickness = 1ULL << 30U,
-    kPitch = 1ULL << 31U,
-    kAllowance = 1ULL << 32U,
-    kBlank = 1ULL << 33U,  ///< not machined yet
-    kSurface = 1ULL << 34U,
-    kPosition = 1ULL << 35U,  ///< also positioning
-    kDatum = 1ULL << 36U,
-    kCorner = 1ULL << 37U,
-    kTop = 1ULL << 38U,
-    kBottom = 1ULL << 39U,  ///< also the end of a way
-    kFeed = 1ULL << 40U,
-    kInfeed = 1ULL << 41U,
-    kMilling = 1ULL << 42U,
-    kFinish = 1ULL << 43U,
-    kRetract = 1ULL << 44U,
-    kChips = 1ULL << 45U,  ///< chip breaking
-    kDecrement = 1ULL << 46U,
-    kAdvance = 1ULL << 47U,  ///< advanced stop distance
-    kDwell = 1ULL << 48U,
-    kOverlap = 1ULL << 49U,
-    kClimb = 1ULL << 50U,
-    kMove = 1ULL << 51U,
-    kDirection = 1ULL << 52U,
-    kOffset = 1ULL << 53U,
-    kTouch = 1ULL << 54U,
-    kRotation = 1ULL << 55U,
-    kMeasuringAxis = 1ULL << 56U,
-    kStrategy = 1ULL << 57U,
-    kOperation = 1ULL << 58U,
-    kMode = 1ULL << 59U,  ///< a choice between ways to do it
-    kNumber = 1ULL << 60U,
-    kTool = 1ULL << 61U,
-    kSetToZero = 1ULL << 62U,  ///< set to zero
-    kLateral = 1ULL << 63U     ///< at the side
-  };
+/// The senses of a word in five languages, a bit each. A peg is a word for the outside that
+/// comments also use for its hole, a blank is not machined yet, the bottom is also the end of a
+/// way, to advance is to stop in advance, and a mode is a choice between ways to do it.
+inline constexpr auto kSenses = [] {
+  std::string_view rest =
+      "inside peg outside circle rectangle width coordinate plane angle maximum minimum "
+      "first-axis second-axis third-axis diameter height tolerance clearance depth drill screw "
+      "distance start step log stop transfer row length radius thickness pitch allowance blank "
+      "surface position datum corner top bottom feed infeed milling finish retract chips "
+      "decrement advance dwell overlap climb move direction offset touch rotation "
+      "measuring-axis strategy operation mode number tool set-to-zero lateral";
+  std::array<std::string_view, 64> names;
+  for (std::string_view& name : names) name = take_field(rest, ' ');
+  return names;
+}();
 
-  /// Senses that exclude each other.
-  static constexpr Senses kSide = (kInside | kOutside) & ~kPeg;
-  static constexpr Senses kOfCycles[] = {
-      kInside | kOutside, kCircle | kRectangle | kWidth | kCoordinate | kPlane | kAngle,
-      kDrill | kScrew};
-  static constexpr Senses kOfParameters[] = {kMaximum | kMinimum,
-                                             kFirstAxis | kSecondAxis | kThirdAxis,
-                                             kAngle | kDiameter | kHeight | kTolerance | kClearance,
-                                             kClearance | kDepth,
-                                             kAngle | kDiameter | kTolerance | kDepth,
-                                             kDistance | kHeight,
-                                             kStart | kStep,
-                                             kLog | kStop | kTransfer | kRow};
-};
+/// The senses of these names; an unknown one does not compile.
+consteval Senses senses(std::string_view names) {
+  Senses senses = 0;
+  while (!names.empty()) {
+    const std::string_view name = take_field(names, ' ');
+    senses |= Senses{1} << (std::ranges::find(kSenses, name) - kSenses.begin());
+  }
+  return senses;
+}
+
+/// Senses that exclude each other: the sides, and those of cycles and of parameters.
+inline constexpr std::array kSides{senses("inside outside")};
+inline constexpr std::array kOfCycles{senses("inside outside peg"),
+                                      senses("circle rectangle width coordinate plane angle"),
+                                      senses("drill screw")};
+inline constexpr std::array kOfParameters{senses("maximum minimum"),
+                                          senses("first-axis second-axis third-axis"),
+                                          senses("angle diameter height tolerance clearance"),
+                                          senses("clearance depth"),
+                                          senses("angle diameter tolerance depth"),
+                                          senses("distance height"),
+                                          senses("start step"),
+                                          senses("log stop transfer row")};
 
 /// Returns the senses of all words of a text that word_senses.inc lists; at one place the longest
 /// word hides the words within it.
