@@ -19,7 +19,7 @@ bool is_dynamic(const Label& label) { return std::holds_alternative<QRef>(label)
 class Linker {
  public:
   Linker(const Program& program, LinkedFile& file)
-      : program_(program), file_(file), writer_(program) {}
+      : program_(program), file_(file), writer_(program, parts_) {}
 
   /// Links the blocks; a program that is too large gives only the finding.
   LinkedParts link() {
@@ -38,11 +38,7 @@ class Linker {
     writer_.add({.op = Op::End});
     resolve_jumps();
     writer_.join_pairs();
-    writer_.place_temporaries(parts_.counters);
-    parts_.temporaries = writer_.temporaries();
-    parts_.code = writer_.take_code();
-    parts_.block_of = writer_.take_blocks();
-    parts_.constants = writer_.take_constants();
+    writer_.place_temporaries();
     return std::move(parts_);
   }
 
@@ -302,8 +298,8 @@ class Linker {
 
   const Program& program_;
   LinkedFile& file_;
-  CodeWriter writer_;
   LinkedParts parts_;
+  CodeWriter writer_;
   std::vector<Jump> jumps_;
   std::vector<std::pair<const Block*, Label>> contours_;  ///< the labels of cycle 14
   const Expr* opened_ = nullptr;

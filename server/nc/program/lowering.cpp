@@ -11,8 +11,8 @@ void CodeWriter::begin_block(std::uint32_t index) {
 
 std::uint32_t CodeWriter::add(Instruction instruction) {
   instruction.blocks = std::exchange(pending_blocks_, 0);
-  code_.push_back(instruction);
-  block_of_.push_back(block_);
+  parts_.code.push_back(instruction);
+  parts_.block_of.push_back(block_);
   return next() - 1;
 }
 
@@ -21,23 +21,23 @@ void CodeWriter::flush() {
 }
 
 std::uint32_t CodeWriter::constant(double value) {
-  const auto [it, is_new] =
-      constant_cells_.try_emplace(std::bit_cast<std::uint64_t>(value),
-                                  kFirstConstant + static_cast<std::uint32_t>(constants_.size()));
-  if (is_new) constants_.push_back(value);
+  const auto [it, is_new] = constant_cells_.try_emplace(
+      std::bit_cast<std::uint64_t>(value),
+      kFirstConstant + static_cast<std::uint32_t>(parts_.constants.size()));
+  if (is_new) parts_.constants.push_back(value);
   return it->second;
 }
 
 std::size_t CodeWriter::memory_bytes() const {
   // A constant is in two vectors that may have grown and in a node of the table that finds it.
   constexpr std::size_t kConstant = 2 * sizeof(double) + 6 * sizeof(void*);
-  return code_.size() * (sizeof(Instruction) + sizeof(std::uint32_t)) +
-         constants_.size() * kConstant;
+  return parts_.code.size() * (sizeof(Instruction) + sizeof(std::uint32_t)) +
+         parts_.constants.size() * kConstant;
 }
 
 std::uint32_t CodeWriter::temporary() {
   const std::uint32_t cell = kTemporaries + used_temporaries_++;
-  most_temporaries_ = std::max(most_temporaries_, used_temporaries_);
+  parts_.temporaries = std::max(parts_.temporaries, used_temporaries_);
   return cell;
 }
 
@@ -84,9 +84,9 @@ void CodeWriter::lower_node(std::uint32_t target, NodeIndex index) {
 }
 
 void CodeWriter::join_pairs() {
-  for (std::size_t i = code_.size(); i-- > 1;) {
-    Instruction& first = code_[i - 1];
-    const Op second = code_[i].op;
+  for (std::size_t i = parts_.code.size(); i-- > 1;) {
+    Instruction& first = parts_.code[i - 1];
+    const Op second = parts_.code[i].op;
     if (first.op != Op::Add) continue;
     if (second == Op::JumpLess) first.op = Op::AddThenJumpLess;
     if (second == Op::AddThenJumpLess) first.op = Op::AddTwiceThenJumpLess;
@@ -94,16 +94,16 @@ void CodeWriter::join_pairs() {
   }
 }
 
-void CodeWriter::place_temporaries(std::uint32_t counters) {
-  const auto first_counter = kFirstConstant + static_cast<std::uint32_t>(constants_.size());
+void CodeWriter::place_temporaries() {
+  const auto first_counter = kFirstConstant + static_cast<std::uint32_t>(parts_.constants.size());
   const auto move = [&](std::uint32_t& cell) {
     if (cell >= kTemporaries) {
-      cell = cell - kTemporaries + first_counter + counters;
+      cell = cell - kTemporaries + first_counter + parts_.counters;
     } else if (cell >= kCounters) {
       cell = cell - kCounters + first_counter;
     }
   };
-  for (Instruction& instruction : code_) {
+  for (Instruction& instruction : parts_.code) {
     move(instruction.a);
     move(instruction.b);
     move(instruction.c);

@@ -7,13 +7,14 @@
 namespace fitgauge::interpreter {
 
 /// Writes the flat code of a program: one instruction after another, formulas as three-address
-/// code. Knows nothing of labels; jump targets are filled in by the linker.
+/// code. Knows nothing of labels; jump targets are filled in by the linker. `parts` get the code,
+/// its blocks, the constants and the number of temporaries.
 class CodeWriter {
  public:
-  explicit CodeWriter(const Program& program) : program_(program) {
+  CodeWriter(const Program& program, LinkedParts& parts) : program_(program), parts_(parts) {
     // Usually one instruction a block; unused reserved memory is never touched.
-    code_.reserve(program.blocks().size());
-    block_of_.reserve(program.blocks().size());
+    parts.code.reserve(program.blocks().size());
+    parts.block_of.reserve(program.blocks().size());
   }
 
   /// The following code belongs to that block.
@@ -25,8 +26,8 @@ class CodeWriter {
 
   /// Adds an instruction and returns its index.
   std::uint32_t add(Instruction instruction);
-  std::uint32_t next() const { return static_cast<std::uint32_t>(code_.size()); }
-  Instruction& at(std::uint32_t index) { return code_[index]; }
+  std::uint32_t next() const { return static_cast<std::uint32_t>(parts_.code.size()); }
+  Instruction& at(std::uint32_t index) { return parts_.code[index]; }
 
   /// The cell with the value of a numeric expression, after the code that computes it.
   std::uint32_t value(const Expr& expr);
@@ -37,14 +38,10 @@ class CodeWriter {
   /// The most memory of the code while it is written.
   std::size_t memory_bytes() const;
 
-  std::vector<Instruction> take_code() { return std::move(code_); }
-  std::vector<std::uint32_t> take_blocks() { return std::move(block_of_); }
   /// Joins two instructions that often follow each other, once no more are added.
   void join_pairs();
-  /// Moves the temporaries after `counters`, because their number is known only at the end.
-  void place_temporaries(std::uint32_t counters);
-  std::vector<double> take_constants() { return std::move(constants_); }
-  std::uint32_t temporaries() const { return most_temporaries_; }
+  /// Moves the temporaries after the counters, because their number is known only at the end.
+  void place_temporaries();
 
   /// A cell of the counters, which follow the constants; both get their place at the end.
   static constexpr std::uint32_t counter(std::uint32_t index) { return kCounters + index; }
@@ -59,14 +56,11 @@ class CodeWriter {
   void lower_node(std::uint32_t target, NodeIndex index);
 
   const Program& program_;
-  std::vector<Instruction> code_;
-  std::vector<std::uint32_t> block_of_;
-  std::vector<double> constants_;
+  LinkedParts& parts_;
   std::unordered_map<std::uint64_t, std::uint32_t> constant_cells_;  // by bit pattern
   std::uint32_t block_ = 0;
   std::uint32_t pending_blocks_ = 0;
   std::uint32_t used_temporaries_ = 0;
-  std::uint32_t most_temporaries_ = 0;
 };
 
 }  // namespace fitgauge::interpreter
