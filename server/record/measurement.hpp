@@ -101,6 +101,10 @@ struct Measurement : MeasurementFields {
   Length upper_limit() const { return nominal_size + deviations.upper; }
   Length lower_limit() const { return nominal_size + deviations.lower; }
   bool is_judged() const { return basis != LimitsBasis::None; }
+  /// Its class of a table; other standards have none: their limits and quantity are the record's.
+  std::string_view table_class() const {
+    return basis == LimitsBasis::Standard ? "" : class_name.value_or("");
+  }
   /// Whether it defines a hole or a shaft.
   bool has_feature() const {
     return !quantity || (gauging::has_feature(*quantity) && (is_judged() || cycle.has_value()));

@@ -33,10 +33,12 @@ std::string rewritten(std::string_view text) {
                             .fields = guid->empty() ? std::vector<CarriedField>()
                                                     : std::vector<CarriedField>{{k::kGuid, *guid}}};
       const std::string carried = format_comment(comment);
-      OutgoingValue out{.origin = "5f0c9a3e77d21b40", .number = 1};
+      app::Measurement out;
+      out.origin = "5f0c9a3e77d21b40";
+      out.id = 1;
       out.measured = *measured;
-      out.nominal = Length::millimetres(25);
-      out.limits = {.upper = Length::nanometres(25'021'000), .lower = out.nominal};
+      out.nominal_size = Length::millimetres(25);
+      out.deviations = {.upper = Length::nanometres(21'000), .lower = {}};
       out.class_name = "H7";
       out.part_id = *part;
       out.characteristic = reader.description().text(characteristic, k::kDescription);

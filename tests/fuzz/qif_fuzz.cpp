@@ -48,13 +48,13 @@ void write_and_read(std::string_view bytes) {
   std::size_t added = 0;
   for (std::size_t at = 0; at < bytes.size(); at += 16) {
     const std::string_view piece = bytes.substr(at, 16);
-    OutgoingValue value{.origin = "5f0c9a3e77d21b40", .number = static_cast<std::int64_t>(at)};
-    const Length nominal = Length::millimetres(25);
-    value.nominal = nominal;
-    value.measured = nominal + Length::nanometres(static_cast<unsigned char>(piece[0]));
-    value.upper = nominal + Length::nanometres(21'000);
-    value.lower = nominal;
-    value.class_name = piece.size() % 2 == 0 ? "H7" : "";
+    app::Measurement value;
+    value.origin = "5f0c9a3e77d21b40";
+    value.id = static_cast<std::int64_t>(at);
+    value.nominal_size = Length::millimetres(25);
+    value.measured = value.nominal_size + Length::nanometres(static_cast<unsigned char>(piece[0]));
+    value.deviations = {.upper = Length::nanometres(21'000), .lower = {}};
+    if (piece.size() % 2 == 0) value.class_name = "H7";
     value.part_id = piece;
     value.characteristic = piece.substr(piece.size() / 2);
     // The service has texts of UTF-8 alone.

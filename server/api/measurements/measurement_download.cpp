@@ -1,14 +1,116 @@
 #include "api/measurements/measurement_listing.hpp"
 
 #include "api/handlers.hpp"
-#include "api/measurements/measurement_file.hpp"
+#include "formats/dfq/dfq_writer.hpp"
+#include "formats/qif/qif.hpp"
+#include "formats/xlsx/workbook.hpp"
 #include "record/record.hpp"
+#include "record/record_members.hpp"
 #include "service/jobs.hpp"
 
 namespace fitgauge::api {
 namespace {
 
 constexpr std::size_t kRowsAtOnce = 200;
+
+/// Measurements as a file that is made whole before its first byte is sent. One thread at a time.
+class MeasurementFile {
+ public:
+  /// Maximum number of rows in a file, because it is made in memory.
+  static constexpr std::size_t kMostRows = 100'000;
+  /// Maximum number of bytes of their records, which bounds the file.
+  static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+
+  MeasurementFile& operator=(MeasurementFile&&) = delete;  // neither copied nor moved
+  virtual ~MeasurementFile() = default;
+
+  /// @errors QueryInvalid: the format cannot express it.
+  virtual Result<void> add(const app::Measurement& measurement) = 0;
+  /// The whole file. @errors StorageUnavailable
+  virtual Result<std::string> finish() = 0;
+};
+
+/// Results that another writer makes a text of.
+template <class Writer>
+class WrittenFile final : public MeasurementFile {
+ public:
+  WrittenFile(std::string_view name, Writer writer) : name_(name), writer_(std::move(writer)) {}
+
+  Result<void> add(const app::Measurement& measurement) override {
+    const auto added = writer_.add(measurement);
+    if (added) return {};
+    return Error{ErrorCode::QueryInvalid,
+                 fmt::format("a {} cannot contain {}: {}; exclude it by a filter, or use csv",
+                             name_, app::measurement_id_text(measurement.id, measurement.origin),
+                             added.error().message),
+                 "format"};
+  }
+
+  Result<std::string> finish() override {
+    if (!writer_.is_empty()) return writer_.text();
+    return Error{ErrorCode::QueryInvalid,
+                 fmt::format("no measurement matches: a {} needs one or more", name_), "format"};
+  }
+
+ private:
+  const std::string_view name_;
+  Writer writer_;
+};
+
+/// Cells of one row of a sheet.
+class SheetRow {
+ public:
+  SheetRow(workbook::Workbook& book, const std::optional<sheet::TimeZone>& zone)
+      : book_(book), zone_(zone) {}
+
+  void begin_cell() {
+    if (is_empty_) book_.blank();
+    is_empty_ = true;
+  }
+
+  void word(std::string_view text) { cell().text(text); }
+  void name(std::string_view text) { cell().text(text); }
+  void text(std::string_view text) { cell().text(text); }
+  void time(Timestamp time) { cell().time(zone_ ? zone_->shown(time) : time); }
+  void mm(Length length) { cell().mm(length); }
+  void um(Length length) { cell().um(length); }
+  void decimal(std::int64_t value, int scale) { cell().decimal(value, scale); }
+  void billionths(std::int64_t value) { cell().decimal(value, 9); }
+  void truth() { cell().text("true"); }
+  void null() {}
+
+ private:
+  workbook::Workbook& cell() {
+    is_empty_ = false;
+    return book_;
+  }
+
+  workbook::Workbook& book_;
+  bool is_empty_ = false;  ///< the cell that was begun
+  const std::optional<sheet::TimeZone>& zone_;
+};
+
+class XlsxFile final : public MeasurementFile {
+ public:
+  XlsxFile(workbook::Workbook book, std::optional<sheet::TimeZone> zone)
+      : book_(std::move(book)), zone_(std::move(zone)) {}
+
+  Result<void> add(const app::Measurement& measurement) override {
+    SheetRow row(book_, zone_);
+    app::for_each_column([&](const auto& column, std::size_t /*index*/) {
+      row.begin_cell();
+      column.write(measurement, app::MemberValue{row});
+    });
+    book_.end_row();
+    return {};
+  }
+
+  Result<std::string> finish() override { return book_.finish(); }
+
+ private:
+  workbook::Workbook book_;
+  const std::optional<sheet::TimeZone> zone_;
+};
 
 /// Content of a file.
 struct Download {
@@ -45,9 +147,18 @@ Result<aqdef::DfqOptions> options_of(const Request& request, std::string_view me
 }
 
 Result<std::unique_ptr<MeasurementFile>> make_file(Download& download) {
-  if (download.media_type == kDfqType) return make_dfq_file(std::move(download.options));
-  if (download.media_type == kQifType) return std::unique_ptr<MeasurementFile>(make_qif_file());
-  return make_xlsx_file(std::move(download.options.zone));
+  using Made = std::unique_ptr<MeasurementFile>;
+  aqdef::DfqOptions& options = download.options;
+  if (download.media_type == kDfqType)
+    return Made(std::make_unique<WrittenFile<aqdef::DfqWriter>>(
+        "DFQ", aqdef::DfqWriter(std::move(options))));
+  if (download.media_type == kQifType)
+    return Made(std::make_unique<WrittenFile<qif::QifWriter>>("QIF", qif::QifWriter()));
+  std::vector<std::string> columns;
+  app::for_each_column(
+      [&](const auto& column, std::size_t /*index*/) { columns.emplace_back(column.name); });
+  auto book = TRY(workbook::Workbook::make("measurements", columns));
+  return Made(std::make_unique<XlsxFile>(std::move(book), std::move(options.zone)));
 }
 
 Error too_many(const std::string& matching, const std::string& most) {

@@ -1,5 +1,7 @@
 #include "formats/dfq/dfq_writer.hpp"
 
+#include "record/verdict_codec.hpp"
+
 namespace fitgauge::aqdef {
 namespace {
 
@@ -45,6 +47,29 @@ std::string_view carried(const Comment& comment, int number) {
     if (field.number == number) return field.text;
   }
   return {};
+}
+
+void add_text(auto& fields, int number, std::optional<std::string_view> text) {
+  if (text && !text->empty()) fields.emplace_back(number, *text);
+}
+
+/// Gives `say` the decision rule of a record and its modifiers: nothing if it uses only the limits.
+void say_rule(const app::Measurement& m, const auto& say) {
+  if (m.rule.kind() != gauging::DecisionRule::Kind::Simple) say("rule", word(m.rule.kind()));
+  // u and ν belong to the size at 20 degrees, which is written.
+  const gauging::KnownUncertainty known = api::known_uncertainty(m);
+  if (m.standard_uncertainty) say("uncertainty_um", format_um(known.u));
+  if (m.coverage_factor) say("coverage_factor", format(*m.coverage_factor));
+  if (m.degrees_of_freedom) {
+    constexpr double kMost = 1e6;  // of the field
+    say("degrees_of_freedom",
+        format_decimal(std::llround(std::min(known.degrees_of_freedom, kMost) * 1e6), 6));
+  }
+  if (m.size_operator && m.size_operator != "LP") say("size_operator", *m.size_operator);
+  if (m.envelope) say("envelope", *m.envelope);
+  if (m.go_gauge) say("go_gauge", *m.go_gauge);
+  if (m.inside_corner) say("inside_corner", "true");
+  if (m.conformance) say("probability", format(m.rule.probability()));
 }
 
 /// Whether a text of a file in Windows-1252 would be read as UTF-8.
@@ -107,51 +132,52 @@ Result<void> check_text(int number, std::string_view text) {
                            first_characters(text, 60), count)};
 }
 
-DfqWriter::Fields DfqWriter::part_fields(const OutgoingValue& value, const Comment& comment) const {
+DfqWriter::Fields DfqWriter::part_fields(const app::Measurement& m, const Comment& comment) const {
   const std::string_view number = carried(comment, k::kPartNumber);
   const std::string_view description = carried(comment, k::kPartDescription);
   Fields fields = {{k::kPartNumber, number.empty() ? options_.part_number : std::string(number)},
                    {k::kPartDescription,
                     description.empty() ? options_.part_description : std::string(description)}};
-  if (!value.operation.empty()) fields.emplace_back(k::kOperation, value.operation);
-  if (!value.unit.empty()) fields.emplace_back(k::kPlant, value.unit);
+  add_text(fields, k::kOperation, m.operation);
+  add_text(fields, k::kPlant, m.unit);
   return fields;
 }
 
-DfqWriter::Fields DfqWriter::characteristic_fields(const OutgoingValue& value) {
-  const std::string nominal = value.nominal ? format_mm(*value.nominal) : std::string();
-  const auto split = letters_and_grade(value.class_name);
-  std::string name(value.characteristic);
-  if (name.empty()) {
-    name =
-        fmt::format("{} {}", nominal, value.class_name.empty() ? value.quantity : value.class_name);
-  }
+DfqWriter::Fields DfqWriter::characteristic_fields(const app::Measurement& m) {
+  const std::string nominal = m.has_nominal ? format_mm(m.nominal_size) : std::string();
+  const std::string_view class_name = m.table_class();
+  const bool has_quantity =
+      m.quantity && (m.quantity != gauging::Quantity::Diameter || !m.is_judged());
+  const std::string_view quantity = has_quantity ? word(*m.quantity) : "";
+  const auto split = letters_and_grade(class_name);
+  std::string name(m.characteristic.value_or(""));
+  if (name.empty())
+    name = fmt::format("{} {}", nominal, class_name.empty() ? quantity : class_name);
   name = trim(name);
   Fields fields = {
       {k::kNumber, std::string(cut(name, 20))}, {k::kDescription, name}, {k::kType, "0"}};
-  if (value.nominal) fields.emplace_back(k::kNominal, nominal);
+  if (m.has_nominal) fields.emplace_back(k::kNominal, nominal);
   if (split) {
     fields.emplace_back(k::kToleranceClass, split->first);
     fields.emplace_back(k::kToleranceGrade, split->second);
   }
-  const auto& [upper, lower] = value.limits;
-  if (lower) fields.emplace_back(k::kLowerLimit, format_mm(*lower));
-  if (upper) fields.emplace_back(k::kUpperLimit, format_mm(*upper));
-  if (lower) fields.emplace_back(k::kLowerAllowance, format_mm(*lower - *value.nominal));
-  if (upper) fields.emplace_back(k::kUpperAllowance, format_mm(*upper - *value.nominal));
+  const bool lower = m.has_lower_limit();
+  const bool upper = m.has_upper_limit();
+  if (lower) fields.emplace_back(k::kLowerLimit, format_mm(m.lower_limit()));
+  if (upper) fields.emplace_back(k::kUpperLimit, format_mm(m.upper_limit()));
+  if (lower) fields.emplace_back(k::kLowerAllowance, format_mm(m.deviations.lower));
+  if (upper) fields.emplace_back(k::kUpperAllowance, format_mm(m.deviations.upper));
   fields.emplace_back(k::kLowerLimitType, lower ? "1" : "0");
   fields.emplace_back(k::kUpperLimitType, upper ? "1" : "0");
   fields.emplace_back(k::kUnit, "mm");
   std::string user;
-  const auto say = [&user](const std::string& what) {
-    if (!user.empty()) user += ';';
-    user += what;
+  const auto say = [&user](std::string_view field, std::string_view text) {
+    user += fmt::format("{}{}={}", user.empty() ? "" : ";", field, text);
   };
-  if (value.class_name.empty() && !value.feature.empty())
-    say(fmt::format("feature={}", value.feature));
-  if (!value.quantity.empty()) say(fmt::format("quantity={}", value.quantity));
-  if (!value.class_name.empty() && !split) say(fmt::format("class={}", value.class_name));
-  if (!value.rule.empty()) say(std::string(value.rule));
+  if (class_name.empty() && m.has_feature()) say("feature", word(m.feature));
+  if (has_quantity) say("quantity", quantity);
+  if (!class_name.empty() && !split) say("class", class_name);
+  say_rule(m, say);
   if (user.empty()) return fields;
   fields.emplace_back(k::kUserName, "fitgauge");
   fields.emplace_back(k::kUserType, "A");
@@ -159,12 +185,12 @@ DfqWriter::Fields DfqWriter::characteristic_fields(const OutgoingValue& value) {
   return fields;
 }
 
-DfqWriter::Fields DfqWriter::value_fields(const OutgoingValue& value, const Comment& comment) {
+DfqWriter::Fields DfqWriter::value_fields(const app::Measurement& m, const Comment& comment) {
   Fields fields;
-  if (!comment.text.empty()) fields.emplace_back(k::kText, comment.text);
-  if (!value.part_id.empty()) fields.emplace_back(k::kPartIdent, value.part_id);
-  if (!value.order.empty()) fields.emplace_back(k::kOrder, value.order);
-  const std::string guid = ascii_upper(guid_of(value.origin, value.number));
+  add_text(fields, k::kText, comment.text);
+  add_text(fields, k::kPartIdent, m.part_id);
+  add_text(fields, k::kOrder, m.order);
+  const std::string guid = ascii_upper(guid_of(m.origin, m.id));
   if (carried(comment, k::kGuid).empty()) fields.emplace_back(k::kGuid, "{" + guid + "}");
   for (const CarriedField& field : comment.fields) {
     const bool is_cell = std::ranges::find(kCells, field.number) != kCells.end();
@@ -206,33 +232,39 @@ std::size_t DfqWriter::place_of_characteristic(std::size_t part, const Fields& f
   return known->second;
 }
 
-Result<void> DfqWriter::add(const OutgoingValue& value) {
-  const Comment comment = parse_comment(value.comment);
-  const Fields part = part_fields(value, comment);
-  const Fields characteristic = characteristic_fields(value);
+Result<void> DfqWriter::add(const app::Measurement& m) {
+  if (m.source != app::Source::Gauge)
+    return Error{ErrorCode::FieldInvalid, "it is simulated, which a DFQ cannot express"};
+  const Comment comment = parse_comment(m.comment.value_or(""));
+  const Fields part = part_fields(m, comment);
+  const Fields characteristic = characteristic_fields(m);
   Written written{.characteristic = 0,
-                  .part_id = std::string(value.part_id),
+                  .part_id = std::string(m.part_id.value_or("")),
                   .cells = {},
-                  .fields = value_fields(value, comment)};
-  const Fields entries = {{k::kMachineNumber, std::string(value.machine)},
-                          {k::kOperatorName, std::string(value.operator_name)},
-                          {k::kGaugeNumber, std::string(value.gauge)},
-                          {k::kBatch, std::string(value.subgroup)}};
+                  .fields = value_fields(m, comment)};
+  const std::string_view machine = m.machine.value_or("");
+  const std::string_view worker = m.operator_id.value_or("");
+  const std::string_view gauge = m.gauge.value_or("");
+  const std::string_view subgroup = m.subgroup.value_or("");
+  const Fields entries = {{k::kMachineNumber, std::string(machine)},
+                          {k::kOperatorName, std::string(worker)},
+                          {k::kGaugeNumber, std::string(gauge)},
+                          {k::kBatch, std::string(subgroup)}};
   for (const Fields* fields :
        std::array<const Fields*, 4>{&part, &characteristic, &written.fields, &entries}) {
     for (const auto& [number, text] : *fields) TRY(check_text(number, text));
   }
   const std::string_view cavity = carried(comment, k::kCavity);
-  written.cells = {format_mm(value.measured),
+  written.cells = {format_mm(m.decisive()),
                    "0",
-                   time_text(value.measured_at),
+                   time_text(m.measured_at),
                    std::string(carried(comment, k::kEvents)),
-                   value.subgroup.empty() ? std::string() : fmt::format("#{}", value.subgroup),
+                   subgroup.empty() ? std::string() : fmt::format("#{}", subgroup),
                    cavity.empty() ? std::string("0") : std::string(cavity),
-                   entry(operators_, value.operator_name),
-                   entry(machines_, value.machine),
+                   entry(operators_, worker),
+                   entry(machines_, machine),
                    std::string(carried(comment, k::kProcess)),
-                   entry(gauges_, value.gauge)};
+                   entry(gauges_, gauge)};
   written.characteristic = place_of_characteristic(place_of_part(part), characteristic);
   int& decimals = characteristics_[written.characteristic].decimals;
   decimals = std::max(decimals, decimals_of(written.cells[0]));

@@ -2,32 +2,9 @@
 
 #include "formats/dfq/reader.hpp"
 #include "formats/sheet/time_zone.hpp"
+#include "record/measurement.hpp"
 
 namespace fitgauge::aqdef {
-
-/// A measurement on its way into a DFQ.
-struct OutgoingValue {
-  std::string_view origin{};  ///< of its id: 16 hexadecimal digits
-  std::int64_t number = 0;    ///< of its id
-  Timestamp measured_at{};
-  Length measured{};  ///< the judged size
-  std::optional<Length> nominal{};
-  SizeLimits limits{};
-  std::string_view class_name{};  ///< empty: limits of a drawing
-  std::string_view feature{};     ///< `hole` or `shaft`; empty: it is none
-  std::string_view quantity{};    ///< empty: a diameter
-  std::string_view rule{};        ///< `rule=guard_band;uncertainty_um=0.8`, or empty
-  std::string_view part_id{};
-  std::string_view characteristic{};
-  std::string_view order{};
-  std::string_view operation{};
-  std::string_view machine{};
-  std::string_view operator_name{};
-  std::string_view gauge{};
-  std::string_view unit{};
-  std::string_view comment{};  ///< with the fields that travel in it
-  std::string_view subgroup{};
-};
 
 struct DfqOptions {
   std::string part_number = "-";          ///< K1001 of measurements without one
@@ -46,8 +23,9 @@ class DfqWriter {
  public:
   explicit DfqWriter(DfqOptions options) : options_(std::move(options)) {}
 
-  /// @errors FieldTooLong, FieldInvalid: a text does not fit its field; nothing is added.
-  Result<void> add(const OutgoingValue& value);
+  /// @errors FieldTooLong, FieldInvalid: a text does not fit its field, or the measurement is
+  /// simulated; nothing is added.
+  Result<void> add(const app::Measurement& measurement);
   bool is_empty() const { return values_.empty(); }
   /// The whole file.
   std::string text() const;
@@ -71,9 +49,9 @@ class DfqWriter {
     std::vector<std::string> entries{};
   };
 
-  Fields part_fields(const OutgoingValue& value, const Comment& comment) const;
-  static Fields characteristic_fields(const OutgoingValue& value);
-  static Fields value_fields(const OutgoingValue& value, const Comment& comment);
+  Fields part_fields(const app::Measurement& m, const Comment& comment) const;
+  static Fields characteristic_fields(const app::Measurement& m);
+  static Fields value_fields(const app::Measurement& m, const Comment& comment);
   std::size_t place_of_part(const Fields& fields) {
     const auto [known, is_new] = known_parts_.try_emplace(fields, parts_.size());
     if (is_new) parts_.push_back(fields);

@@ -161,40 +161,14 @@ class QifRows {
   std::size_t rows_ = 0;
 };
 
-/// Word of CharacteristicStatusEnum.
-enum class Status : std::uint8_t { Pass, Undefined, Rework, Indeterminate, Fail };
-std::string_view word(Status status);
-
-/// A measurement on its way into a document.
-struct OutgoingValue {
-  std::string_view origin{};  ///< of its id: 16 hexadecimal digits
-  std::int64_t number = 0;    ///< of its id
-  Timestamp measured_at{};
-  Length measured{};
-  std::optional<Length> nominal{};
-  std::optional<Length> upper{};  ///< limits of size
-  std::optional<Length> lower{};
-  std::string_view class_name{};  ///< empty: limits of a drawing
-  bool is_iso286 = false;         ///< a class of ISO 286
-  gauging::Quantity quantity = gauging::Quantity::Diameter;
-  std::string_view feature{};        ///< `hole` or `shaft`; empty: it is none
-  std::string_view size_operator{};  ///< of ISO 14405-1; empty: none
-  bool has_envelope = false;         ///< the size has the modifier (E)
-  Status status = Status::Pass;
-  std::optional<Length> uncertainty{};  ///< standard
-  std::optional<std::string_view> part_id{};
-  std::optional<std::string_view> characteristic{};
-  /// Further fields of the record, with the names of /v1/measurements.
-  std::vector<std::pair<std::string_view, std::string>> fields{};
-};
-
 /// Makes a QIF document of results: the characteristics with their limits, the measurements in
 /// their order, and their parts. Fields without a place in QIF become attributes with their name.
 /// Equal measurements give equal bytes. Not thread-safe.
 class QifWriter {
  public:
-  /// @errors FieldInvalid: a text has a character that XML does not allow; nothing is added.
-  Result<void> add(const OutgoingValue& value);
+  /// @errors FieldInvalid: a text has a character that XML does not allow, or the measurement is
+  /// simulated; nothing is added.
+  Result<void> add(const app::Measurement& measurement);
   bool is_empty() const { return measurements_ == 0; }
   /// Returns the element QIFDocument, the begin of the document. @pre !is_empty()
   std::string element() const;
@@ -208,17 +182,17 @@ class QifWriter {
  private:
   struct Part {
     std::uint32_t id = 0;
-    Status worst = Status::Pass;
+    std::size_t worst = 0;  ///< status of its values, as worst_
   };
 
   /// Returns the item of a characteristic, and makes it at the first call.
-  std::uint32_t item_of(const OutgoingValue& value);
+  std::uint32_t item_of(const app::Measurement& m);
 
   std::string qpid_{};
   std::uint32_t last_id_ = 1;  ///< 1 is the standard
   bool is_iso286_ = true;      ///< all limits are
   std::size_t measurements_ = 0;
-  Status worst_ = Status::Pass;
+  std::size_t worst_ = 0;  ///< place in the list of statuses, from the best on
   std::map<std::string, std::uint32_t, std::less<>> items_{};  ///< by their definition and name
   std::map<std::string, Part, std::less<>> parts_{};
   std::string definitions_{};

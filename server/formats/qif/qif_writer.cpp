@@ -1,4 +1,5 @@
 #include "formats/qif/qif.hpp"
+#include "record/verdict_codec.hpp"
 
 namespace fitgauge::qif {
 namespace {
@@ -14,17 +15,25 @@ std::string attributes(const Texts& texts) {
   return out += "</Attributes>";
 }
 
-/// Returns the word for a part or for all results: QIF has no word for an open verdict.
-std::string_view inspection_word(Status status) {
-  const bool is_open = status == Status::Indeterminate || status == Status::Undefined;
-  return is_open ? "UNKNOWN" : word(status);
-}
+/// A verdict in the words of QIF.
+struct Status {
+  gauging::Verdict verdict;
+  std::string_view word;        ///< of CharacteristicStatusEnum
+  std::string_view inspection;  ///< of a part, or of all results: none for an open verdict
+};
+constexpr Status kStatuses[] = {{gauging::Verdict::Good, "PASS", "PASS"},
+                                {gauging::Verdict::Unjudged, "UNDEFINED", "UNKNOWN"},
+                                {gauging::Verdict::Rework, "REWORK", "REWORK"},
+                                {gauging::Verdict::Indeterminate, "INDETERMINATE", "UNKNOWN"},
+                                {gauging::Verdict::Reject, "FAIL", "FAIL"}};
 
-std::string tolerance(const OutgoingValue& value) {
-  if (!value.upper && !value.lower) return "<NonTolerance>MEASURED</NonTolerance>";
+std::string tolerance(const app::Measurement& m) {
+  const bool upper = m.has_upper_limit();
+  const bool lower = m.has_lower_limit();
+  if (!upper && !lower) return "<NonTolerance>MEASURED</NonTolerance>";
   std::string out = "<Tolerance>";
-  if (value.upper) out += fmt::format("<MaxValue>{}</MaxValue>", format_mm(*value.upper));
-  if (value.lower) out += fmt::format("<MinValue>{}</MinValue>", format_mm(*value.lower));
+  if (upper) out += fmt::format("<MaxValue>{}</MaxValue>", format_mm(m.upper_limit()));
+  if (lower) out += fmt::format("<MinValue>{}</MinValue>", format_mm(m.lower_limit()));
   return out += "<DefinedAsLimit>true</DefinedAsLimit></Tolerance>";
 }
 
@@ -54,34 +63,65 @@ Result<void> check(std::string_view name, std::string_view text) {
                fmt::format("{} has a control character, which XML cannot hold", name)};
 }
 
-}  // namespace
-
-std::string_view word(Status status) {
-  return word_of(status, {"PASS", "UNDEFINED", "REWORK", "INDETERMINATE", "FAIL"});
+/// Fields of a record without a place in QIF.
+Texts other_fields(const app::Measurement& m) {
+  Texts fields;
+  const auto add = [&](const app::MeasurementField& field) {
+    if (field.text != nullptr) {
+      if (m.*field.text) fields.emplace_back(field.name, *(m.*field.text));
+    } else if (m.*field.number) {
+      fields.emplace_back(field.name, app::number_text(field, *(m.*field.number)));
+    }
+  };
+  for (const app::MeasurementField& field : app::kLabels) {
+    if (field.name != "part_id" && field.name != "characteristic") add(field);
+  }
+  if (m.corrected) {  // the value and its uncertainty are those of the size at 20 degrees
+    fields.emplace_back("measured_mm", format_mm(m.measured));
+    if (m.standard_uncertainty)
+      fields.emplace_back("uncertainty_um", format_um(*m.standard_uncertainty));
+  }
+  if (m.rule.kind() != gauging::DecisionRule::Kind::Simple)
+    fields.emplace_back("rule", word(m.rule.kind()));
+  if (m.coverage_factor) fields.emplace_back("coverage_factor", format(*m.coverage_factor));
+  if (m.conformance) fields.emplace_back("probability", format(m.rule.probability()));
+  for (const bool is_text : {false, true}) {
+    for (const app::MeasurementField& field : app::kGivenFields.subspan(app::kLabels.size())) {
+      const bool has_place = field.name == "size_operator" || field.name == "envelope";
+      if ((field.text != nullptr) == is_text && !has_place) add(field);
+    }
+  }
+  return fields;
 }
 
-std::uint32_t QifWriter::item_of(const OutgoingValue& value) {
+gauging::Quantity quantity_of(const app::Measurement& m) {
+  return m.quantity.value_or(gauging::Quantity::Diameter);
+}
+
+}  // namespace
+
+std::uint32_t QifWriter::item_of(const app::Measurement& m) {
+  const gauging::Quantity quantity = quantity_of(m);
+  const std::string_view size_operator = m.size_operator.value_or("");
   Texts of_definition;
-  if (!value.feature.empty()) of_definition.emplace_back("feature", value.feature);
-  if (value.quantity != gauging::Quantity::Diameter)
-    of_definition.emplace_back("quantity", word(value.quantity));
-  if (!value.class_name.empty())
-    of_definition.emplace_back("tolerance_class", std::string(value.class_name));
-  std::string modifiers =
-      value.has_envelope ? "<EnvelopeRequirement>true</EnvelopeRequirement>" : "";
-  if (std::ranges::find(kDeterminations, value.size_operator) != std::end(kDeterminations)) {
+  if (m.has_feature()) of_definition.emplace_back("feature", word(m.feature));
+  if (quantity != gauging::Quantity::Diameter)
+    of_definition.emplace_back("quantity", word(quantity));
+  if (!m.table_class().empty()) of_definition.emplace_back("tolerance_class", m.table_class());
+  std::string modifiers = m.envelope ? "<EnvelopeRequirement>true</EnvelopeRequirement>" : "";
+  if (std::ranges::find(kDeterminations, size_operator) != std::end(kDeterminations)) {
     modifiers += fmt::format(
         "<DimensionModifiers><DeterminationModifier>{}</DeterminationModifier></"
         "DimensionModifiers>",
-        value.size_operator);
-  } else if (!value.size_operator.empty()) {
-    of_definition.emplace_back("size_operator", value.size_operator);
+        size_operator);
+  } else if (!size_operator.empty()) {
+    of_definition.emplace_back("size_operator", size_operator);
   }
-  const std::string definition = attributes(of_definition) + modifiers + tolerance(value);
-  const std::string_view kind = characteristic_of(value.quantity);
+  const std::string definition = attributes(of_definition) + modifiers + tolerance(m);
+  const std::string_view kind = characteristic_of(quantity);
   const std::string nominal =
-      value.nominal ? fmt::format("<TargetValue>{}</TargetValue>", format_mm(*value.nominal)) : "";
-  const std::string name(value.characteristic.value_or(""));
+      m.has_nominal ? fmt::format("<TargetValue>{}</TargetValue>", format_mm(m.nominal_size)) : "";
+  const std::string name(m.characteristic.value_or(""));
   const auto [known, is_new] =
       items_.try_emplace(fmt::format("{}\n{}\n{}\n{}", kind, definition, nominal, name), 0);
   if (!is_new) return known->second;
@@ -106,36 +146,41 @@ std::uint32_t QifWriter::item_of(const OutgoingValue& value) {
   return last_id_;
 }
 
-Result<void> QifWriter::add(const OutgoingValue& value) {
-  Texts fields = {{"id", fmt::format("m{}-{}", value.number, value.origin)}};
-  for (const auto& field : value.fields) fields.push_back(field);
+Result<void> QifWriter::add(const app::Measurement& m) {
+  if (m.source != app::Source::Gauge)
+    return Error{ErrorCode::FieldInvalid, "it is simulated, not the result of an inspection"};
+  Texts fields = other_fields(m);
+  fields.emplace(fields.begin(), "id", fmt::format("m{}-{}", m.id, m.origin));
   for (const auto& [name, text] : fields) TRY(check(name, text));
-  for (const auto& [name, text] : {std::pair("part_id", value.part_id.value_or("")),
-                                   std::pair("characteristic", value.characteristic.value_or("")),
-                                   std::pair("tolerance_class", value.class_name),
-                                   std::pair("size_operator", value.size_operator)}) {
+  for (const auto& [name, text] : {std::pair("part_id", m.part_id.value_or("")),
+                                   std::pair("characteristic", m.characteristic.value_or("")),
+                                   std::pair("tolerance_class", m.table_class()),
+                                   std::pair("size_operator", m.size_operator.value_or(""))}) {
     TRY(check(name, text));
   }
-  if (is_empty()) qpid_ = aqdef::guid_of(value.origin, value.number);
-  const std::uint32_t item = item_of(value);
+  if (is_empty()) qpid_ = aqdef::guid_of(m.origin, m.id);
+  const auto status = static_cast<std::size_t>(
+      std::ranges::find(kStatuses, m.result.verdict, &Status::verdict) - kStatuses);
+  const std::uint32_t item = item_of(m);
   std::string part;
-  if (value.part_id) {
-    auto& known = parts_[std::string(*value.part_id)];
+  if (m.part_id) {
+    auto& known = parts_[std::string(*m.part_id)];
     if (known.id == 0) known.id = ++last_id_;
-    known.worst = std::max(known.worst, value.status);
+    known.worst = std::max(known.worst, status);
     part = fmt::format("<ActualComponentId>{}</ActualComponentId>", known.id);
   }
   const std::string uncertainty =
-      value.uncertainty ? fmt::format(" combinedUncertainty=\"{}\"", format_mm(*value.uncertainty))
-                        : std::string();
+      m.standard_uncertainty
+          ? fmt::format(" combinedUncertainty=\"{}\"", format_mm(api::known_uncertainty(m).u))
+          : std::string();
   measurement_texts_ += fmt::format(
       "<{0}CharacteristicMeasurement id=\"{1}\">{2}<Status><CharacteristicStatusEnum>{3}"
       "</CharacteristicStatusEnum></Status><CharacteristicItemId>{4}</CharacteristicItemId>"
       "<TimeStamp>{5}</TimeStamp>{6}<Value{7}>{8}</Value></{0}CharacteristicMeasurement>\n",
-      characteristic_of(value.quantity), ++last_id_, attributes(fields), word(value.status), item,
-      format_rfc3339(value.measured_at), part, uncertainty, format_mm(value.measured));
-  worst_ = std::max(worst_, value.status);
-  is_iso286_ = is_iso286_ && value.is_iso286;
+      characteristic_of(quantity_of(m)), ++last_id_, attributes(fields), kStatuses[status].word,
+      item, format_rfc3339(m.measured_at), part, uncertainty, format_mm(m.decisive()));
+  worst_ = std::max(worst_, status);
+  is_iso286_ = is_iso286_ && m.basis == app::LimitsBasis::Iso286;
   ++measurements_;
   return {};
 }
@@ -175,7 +220,7 @@ std::string QifWriter::element() const {
   out += fmt::format(
       "</MeasuredCharacteristics><InspectionStatus><InspectionStatusEnum>{}</InspectionStatusEnum>"
       "</InspectionStatus></MeasurementResults></MeasurementResultsSet>\n",
-      inspection_word(worst_));
+      kStatuses[worst_].inspection);
   if (!parts_.empty()) {
     std::string components;
     for (const auto& [serial, part] : parts_) {
@@ -183,7 +228,7 @@ std::string QifWriter::element() const {
           "<ActualComponent "
           "id=\"{}\"><SerialNumber>{}</SerialNumber><Status><InspectionStatusEnum>{}"
           "</InspectionStatusEnum></Status></ActualComponent>\n",
-          part.id, xml_text(serial), inspection_word(part.worst));
+          part.id, xml_text(serial), kStatuses[part.worst].inspection);
     }
     out += "<ActualComponentSets n=\"1\">\n";
     list("ActualComponentSet", parts_.size(), components);

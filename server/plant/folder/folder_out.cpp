@@ -1,7 +1,7 @@
-#include "api/measurements/measurement_file.hpp"
 #include "api/measurements/measurement_listing.hpp"
 #include "base/folder.hpp"
 #include "formats/dfq/dfq_writer.hpp"
+#include "formats/qif/qif.hpp"
 #include "plant/kind.hpp"
 #include "record/record.hpp"
 
@@ -122,10 +122,10 @@ class FolderOut final : public Outlet {
         break;
       case Format::Dfq:
         if (!file.dfq) file.dfq.emplace(options_.dfq);
-        return api::add_to_dfq(*file.dfq, measurement);
+        return file.dfq->add(measurement);
       case Format::Qif:
         if (!file.qif) file.qif.emplace();
-        return api::add_to_qif(*file.qif, measurement);
+        return file.qif->add(measurement);
     }
     return {};
   }

@@ -1,7 +1,7 @@
 #include "plant/mtconnect/mtconnect_document.hpp"
 
 #include "api/handlers.hpp"
-#include "api/measurements/measurement_file.hpp"
+#include "formats/qif/qif.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -147,7 +147,7 @@ void answer_assets(const Gathered& gathered) {
   qif::QifWriter writer;
   std::for_each(gathered.newest.rbegin(), gathered.newest.rend(), [&writer](const auto& kept) {
     // Characters that XML does not allow are left out, because nobody could correct them.
-    [[maybe_unused]] const auto added = add_to_qif(writer, **kept);
+    [[maybe_unused]] const auto added = writer.add(**kept);
   });
   const Timestamp at =
       gathered.newest.empty() ? gathered.agent.began : (*gathered.newest.front())->received_at;

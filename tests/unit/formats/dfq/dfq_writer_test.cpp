@@ -7,41 +7,47 @@
 namespace fitgauge::aqdef {
 namespace {
 
-OutgoingValue bore(std::int64_t number, std::int64_t nanometres) {
-  OutgoingValue value{.origin = "5f0c9a3e77d21b40", .number = number};
+using app::Measurement;
+
+Measurement bore(std::int64_t number, std::int64_t nanometres) {
+  Measurement value;
+  value.origin = "5f0c9a3e77d21b40";
+  value.id = number;
   value.measured_at = {1'795'334'400'000'000'000};
-  value.nominal = Length::millimetres(25);
-  value.measured = *value.nominal + Length::nanometres(nanometres);
-  value.limits = {.upper = Length::nanometres(25'021'000), .lower = value.nominal};
+  value.nominal_size = Length::millimetres(25);
+  value.measured = value.nominal_size + Length::nanometres(nanometres);
+  value.deviations = {.upper = Length::nanometres(21'000), .lower = {}};
   value.class_name = "H7";
   value.part_id = "SN-1";
   value.characteristic = "Bore";
   value.order = "WO-9";
   value.machine = "M3";
-  value.operator_name = "Erika";
+  value.operator_id = "Erika";
   value.gauge = "Plug";
   value.subgroup = "B7";
   value.comment = "first |K0005 100|K0097 {A}|K1001 4711|";
   return value;
 }
 
-OutgoingValue shaft(std::int64_t number) {
-  OutgoingValue value = bore(number, 0);
+Measurement shaft(std::int64_t number) {
+  Measurement value = bore(number, 0);
   value.characteristic = "Seat";
   value.class_name = {};
-  value.feature = "shaft";
-  value.nominal = Length::millimetres(8);
+  value.basis = app::LimitsBasis::Explicit;
+  value.feature = iso286::Feature::Shaft;
+  value.nominal_size = Length::millimetres(8);
   value.measured = Length::nanometres(7'995'500);
-  value.limits = {.upper = Length::millimetres(8), .lower = std::nullopt};
-  value.rule = "rule=guard_band;uncertainty_um=0.8";
+  value.deviations = {.upper = {}, .lower = -app::kNoLimit};
+  value.standard_uncertainty = Length::nanometres(800);
+  value.rule = gauging::DecisionRule::guard_band(*value.standard_uncertainty).value();
   value.comment = "|K1001 4711|";
   value.machine = "M4";
   return value;
 }
 
-std::string written(const std::vector<OutgoingValue>& values, DfqOptions options = {}) {
+std::string written(const std::vector<Measurement>& values, DfqOptions options = {}) {
   DfqWriter writer(std::move(options));
-  for (const OutgoingValue& value : values) REQUIRE(writer.add(value).has_value());
+  for (const Measurement& value : values) REQUIRE(writer.add(value).has_value());
   return writer.text();
 }
 
@@ -86,7 +92,7 @@ TEST_CASE("a file as others read it") {
 
 // What a certification of the format looks at; no certificate is claimed.
 TEST_CASE("order, ends of lines, indices, types, lengths, counts and mandatory fields") {
-  OutgoingValue other = shaft(4);
+  Measurement other = shaft(4);
   other.operation = "OP20";
   other.unit = "Hall 3";
   other.class_name = "my own class";
@@ -152,31 +158,31 @@ TEST_CASE("order, ends of lines, indices, types, lengths, counts and mandatory f
 
 TEST_CASE("a text that does not fit its field is told, and nothing is added") {
   struct Case {
-    std::string_view OutgoingValue::*field;
+    std::optional<std::string_view> app::MeasurementFields::*field;
     std::string text;
     std::string_view said;
   };
   const std::vector<Case> cases = {
-      {&OutgoingValue::order, std::string(21, 'x'),
+      {&Measurement::order, std::string(21, 'x'),
        "K0053, the order number, must have at most 20 characters"},
-      {&OutgoingValue::part_id, std::string(41, 'x'),
+      {&Measurement::part_id, std::string(41, 'x'),
        "K0014, the part ident, must have at most 40 characters"},
-      {&OutgoingValue::comment, std::string(256, 'x'),
+      {&Measurement::comment, std::string(256, 'x'),
        "K0009, the text, must have at most 255 characters"},
-      {&OutgoingValue::comment, "a\nb", "K0009, the text, cannot hold a line end"},
-      {&OutgoingValue::subgroup, std::string(15, 'x'),
+      {&Measurement::comment, "a\nb", "K0009, the text, cannot hold a line end"},
+      {&Measurement::subgroup, std::string(15, 'x'),
        "K0006, the batch number, must have at most 14"},
-      {&OutgoingValue::machine, std::string(41, 'x'),
+      {&Measurement::machine, std::string(41, 'x'),
        "K4062, the machine of the catalogue, must have at most 40"},
-      {&OutgoingValue::gauge, "a\x14", "K4072, the gage of the catalogue, cannot hold"},
-      {&OutgoingValue::operator_name, std::string(51, 'x'), "K4092"},
-      {&OutgoingValue::characteristic, std::string(81, 'x'), "K2002"},
-      {&OutgoingValue::operation, std::string(41, 'x'), "K1086"},
-      {&OutgoingValue::unit, std::string(41, 'x'), "K1303"},
+      {&Measurement::gauge, "a\x14", "K4072, the gage of the catalogue, cannot hold"},
+      {&Measurement::operator_id, std::string(51, 'x'), "K4092"},
+      {&Measurement::characteristic, std::string(81, 'x'), "K2002"},
+      {&Measurement::operation, std::string(41, 'x'), "K1086"},
+      {&Measurement::unit, std::string(41, 'x'), "K1303"},
   };
   for (const Case& one : cases) {
     DfqWriter writer({});
-    OutgoingValue value = bore(1, 0);
+    Measurement value = bore(1, 0);
     value.*one.field = one.text;
     const auto added = writer.add(value);
     REQUIRE(!added.has_value());
@@ -185,7 +191,7 @@ TEST_CASE("a text that does not fit its field is told, and nothing is added") {
     CHECK(writer.is_empty());
   }
   DfqWriter writer({});
-  OutgoingValue value = bore(1, 0);
+  Measurement value = bore(1, 0);
   const std::string umlauts =
       "\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4"
       "0123456789";
@@ -194,7 +200,7 @@ TEST_CASE("a text that does not fit its field is told, and nothing is added") {
 }
 
 TEST_CASE("Windows-1252 where it can, else UTF-8 with its mark") {
-  OutgoingValue value = bore(1, 0);
+  Measurement value = bore(1, 0);
   value.part_id = "W\xC3\xA4lle \xE2\x82\xAC";
   CHECK(written({value}).find("K0014/1 W\xE4lle \x80\r\n") != std::string::npos);
   value.part_id = "\xC3\x83\xC2\xA4";  // as Windows-1252 these are the bytes of an UTF-8 a umlaut
@@ -204,9 +210,17 @@ TEST_CASE("Windows-1252 where it can, else UTF-8 with its mark") {
   CHECK(written({value}).find("K0014/1 \xE8\xBD\xB4\r\n") != std::string::npos);
 }
 
+TEST_CASE("a simulated measurement is refused") {
+  Measurement value = bore(1, 0);
+  value.source = app::Source::Simulation;
+  DfqWriter writer({});
+  CHECK(!writer.add(value).has_value());
+  CHECK(writer.is_empty());
+}
+
 TEST_CASE("numbers of nothing are 0") {
-  OutgoingValue value = bore(1, 0);
-  value.machine = value.operator_name = value.gauge = value.comment = value.subgroup = {};
+  Measurement value = bore(1, 0);
+  value.machine = value.operator_id = value.gauge = value.comment = value.subgroup = {};
   CHECK(written({value}).find("25\x14"
                               "0\x14"
                               "22.11.2026/08:00:00\x14\x14\x14"
@@ -220,7 +234,7 @@ TEST_CASE("times are of the zone") {
   DfqOptions options;
   options.zone = sheet::TimeZone::load("Europe/Berlin").value();
   CHECK(written({bore(1, 0)}, options).find("22.11.2026/09:00:00") != std::string::npos);
-  OutgoingValue value = bore(1, 0);
+  Measurement value = bore(1, 0);
   value.measured_at.nanoseconds = -500'000'000;
   CHECK(written({value}, options).find("01.01.1970/00:59:59") != std::string::npos);
 }
@@ -231,7 +245,7 @@ TEST_CASE("classes that K2103 and K2104 cannot say stand in the user field") {
            {"js5", "K2103/1 js\r\nK2104/1 5\r\n"},
            {"H01", "K2802/1 class=H01\r\n"},
            {"Own 1", "K2802/1 class=Own 1\r\n"}}) {
-    OutgoingValue value = bore(1, 0);
+    Measurement value = bore(1, 0);
     value.class_name = name;
     CHECK(written({value}).find(said) != std::string::npos);
   }

@@ -8,12 +8,15 @@ namespace {
 
 using namespace std::string_literals;
 
-OutgoingValue value(std::int64_t number, std::int64_t nanometres) {
-  OutgoingValue value{.origin = "5f0c9a3e77d21b40", .number = number};
+using app::Measurement;
+
+Measurement value(std::int64_t number, std::int64_t nanometres) {
+  Measurement value;
+  value.origin = "5f0c9a3e77d21b40";
+  value.id = number;
   value.measured = Length::nanometres(nanometres);
-  value.nominal = Length::millimetres(25);
-  value.upper = Length::nanometres(25'021'000);
-  value.lower = Length::millimetres(25);
+  value.nominal_size = Length::millimetres(25);
+  value.deviations = {.upper = Length::nanometres(21'000), .lower = {}};
   value.class_name = "H7";
   return value;
 }
@@ -36,16 +39,18 @@ std::string error_of(const std::string& text, const QifOptions& options = {}) {
 
 TEST_CASE("what is written is read with the same values") {
   QifWriter writer;
-  OutgoingValue first = value(1, 25'013'100);
+  Measurement first = value(1, 25'013'100);
   first.part_id = "P<1>&\"";
   first.characteristic = " a  b\n";
-  first.uncertainty = Length::nanometres(750);
-  first.fields = {{"machine", "M3"}, {"comment", "a;\n\t\"b\""}};
+  first.standard_uncertainty = Length::nanometres(750);
+  first.machine = "M3";
+  first.comment = "a;\n\t\"b\"";
   REQUIRE(writer.add(first).has_value());
-  OutgoingValue second = value(2, 24'991'000);
-  second.class_name = "";
-  second.feature = "shaft";
-  second.lower.reset();
+  Measurement second = value(2, 24'991'000);
+  second.class_name.reset();
+  second.basis = app::LimitsBasis::Explicit;
+  second.feature = iso286::Feature::Shaft;
+  second.deviations.lower = -app::kNoLimit;
   REQUIRE(writer.add(second).has_value());
   const auto read = read_qif(writer.text(), {});
   REQUIRE(read.has_value());
@@ -63,9 +68,9 @@ TEST_CASE("what is written is read with the same values") {
 TEST_CASE("the operator of a size and the envelope are elements of the definition") {
   QifWriter writer;
   for (const char* const name : {"GG", "SD"}) {
-    OutgoingValue sized = value(1, 25'010'000);
+    Measurement sized = value(1, 25'010'000);
     sized.size_operator = name;
-    sized.has_envelope = name == std::string("GG");
+    if (name == std::string("GG")) sized.envelope = app::kEnvelopeRequired;
     REQUIRE(writer.add(sized).has_value());
   }
   const std::string text = writer.text();
@@ -82,7 +87,8 @@ TEST_CASE("the operator of a size and the envelope are elements of the definitio
   // Of a distance, of which nothing says that it is a size, they are passed over.
   std::string distance = text;
   for (const auto& [from, to] : {std::pair("Diameter"s, "Length"s),
-                                 std::pair("name=\"tolerance_class\""s, "name=\"other\""s)}) {
+                                 std::pair("name=\"tolerance_class\""s, "name=\"other\""s),
+                                 std::pair("name=\"feature\""s, "name=\"other\""s)}) {
     for (std::size_t at = 0; (at = distance.find(from, at)) != std::string::npos;) {
       distance.replace(at, from.size(), to);
     }
@@ -96,9 +102,12 @@ TEST_CASE("the operator of a size and the envelope are elements of the definitio
 TEST_CASE("the same values are the same bytes, and a text that XML cannot hold is refused") {
   CHECK(written(20) == written(20));
   QifWriter writer;
-  OutgoingValue bad = value(1, 25'000'000);
+  Measurement bad = value(1, 25'000'000);
   bad.part_id = "a\x01";
   CHECK_FALSE(writer.add(bad).has_value());
+  Measurement simulated = value(1, 25'000'000);
+  simulated.source = app::Source::Simulation;
+  CHECK_FALSE(writer.add(simulated).has_value());
   CHECK(writer.is_empty());
 }
 
@@ -124,7 +133,7 @@ TEST_CASE("a document type is refused where it stands") {
 TEST_CASE("a document is read in the encoding that it names, or refused") {
   const auto read_in = [](std::string_view encoding, std::string_view name) {
     QifWriter writer;
-    OutgoingValue named = value(1, 25'000'000);
+    Measurement named = value(1, 25'000'000);
     named.part_id = "NAME";
     REQUIRE(writer.add(named).has_value());
     std::string text = writer.text();
