@@ -46,9 +46,7 @@ Outcome<std::string> arrays_of(std::string_view text, bool& flat) {
   std::string nested;
   flat = true;
   for (int number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = trim(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::string_view line = trim(take_field(text, '\n'));
     if (is_ambiguous(line)) {
       return Failure::of(ExitCode::Usage,
                          "line {}: '{}' may be one number or several: write a decimal "

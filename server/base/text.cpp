@@ -33,19 +33,6 @@ std::size_t sequence_length(std::string_view text, std::size_t i) {
   return length;
 }
 
-void append_code_point(std::string& out, std::uint32_t code) {
-  if (code < 0x80) {
-    out += static_cast<char>(code);
-  } else if (code < 0x800) {
-    out += static_cast<char>(0xC0 | (code >> 6));
-    out += static_cast<char>(0x80 | (code & 0x3F));
-  } else {
-    out += static_cast<char>(0xE0 | (code >> 12));
-    out += static_cast<char>(0x80 | ((code >> 6) & 0x3F));
-    out += static_cast<char>(0x80 | (code & 0x3F));
-  }
-}
-
 /// 0x80 to 0x9F of Windows-1252; the rest is Latin-1.
 constexpr std::array<std::uint16_t, 32> kWindows1252 = {
     0x20AC, 0x0081, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160,
@@ -91,13 +78,31 @@ std::size_t find_invalid_utf8(std::string_view text) {
   return std::string_view::npos;
 }
 
+void append_utf8(std::string& out, char32_t point) {
+  const auto put = [&out](char32_t byte) { out += static_cast<char>(byte); };
+  if (point < 0x80) return put(point);
+  int more = point < 0x800 ? 1 : point < 0x10000 ? 2 : 3;  // bytes after the first
+  put(0xFFU << (7 - more) | point >> (6 * more));
+  while (more-- > 0) put(0x80U | (point >> (6 * more) & 0x3FU));
+}
+
+char32_t take_character(std::string_view& text) {
+  const unsigned first = byte_at(text, 0);
+  const std::size_t size = first < 0xC0 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  char32_t character = size == 1 ? first : first & (0xFFU >> (size + 1));
+  for (const char byte : text.substr(1, size - 1))
+    character = character << 6 | (static_cast<unsigned char>(byte) & 0x3FU);
+  text.remove_prefix(std::min(size, text.size()));
+  return character;
+}
+
 std::string utf8_from_windows1252(std::string_view bytes) {
   std::string out;
   out.reserve(bytes.size());
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     const unsigned byte = byte_at(bytes, i);
     const bool mapped = byte >= 0x80 && byte < 0xA0;
-    append_code_point(out, mapped ? kWindows1252[byte - 0x80] : byte);
+    append_utf8(out, mapped ? kWindows1252[byte - 0x80] : byte);
   }
   return out;
 }

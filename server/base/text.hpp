@@ -44,6 +44,12 @@ inline std::string_view first_characters(std::string_view text, std::size_t most
   return text.substr(0, find_invalid_utf8(text));
 }
 
+/// @param point a code point that is no surrogate
+void append_utf8(std::string& out, char32_t point);
+
+/// Removes the first character from a text of UTF-8. @pre the text is not empty
+char32_t take_character(std::string_view& text);
+
 /// Windows-1252 as UTF-8; its five undefined bytes become the C1 controls of the same number.
 std::string utf8_from_windows1252(std::string_view bytes);
 

@@ -30,10 +30,8 @@ std::string known(std::string (*spelling)(const Setting&)) {
 std::vector<std::string> split_list(std::string_view text) {
   std::vector<std::string> items;
   while (!text.empty()) {
-    const std::size_t comma = std::min(text.find(','), text.size());
-    if (const std::string_view item = trim(text.substr(0, comma)); !item.empty())
-      items.emplace_back(item);
-    text.remove_prefix(std::min(comma + 1, text.size()));
+    const std::string_view item = trim(take_field(text, ','));
+    if (!item.empty()) items.emplace_back(item);
   }
   return items;
 }

@@ -10,12 +10,10 @@ bool has_word(std::string_view words, std::string_view word) {
 }  // namespace
 
 std::string listed(std::string_view words) {
-  std::string text;
-  for (std::size_t at = 0; at < words.size();) {
-    const std::size_t end = std::min(words.find(' ', at), words.size());
-    if (at > 0) text += end == words.size() ? " or " : ", ";
-    text += words.substr(at, end - at);
-    at = end + 1;
+  std::string text(take_field(words, ' '));
+  while (!words.empty()) {
+    const std::string_view word = take_field(words, ' ');
+    text.append(words.empty() ? " or " : ", ").append(word);
   }
   return text;
 }

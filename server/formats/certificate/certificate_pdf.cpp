@@ -243,11 +243,7 @@ void write_end(Writer& out, const Certificate& certificate) {
 
 Result<Letterhead> read_letterhead(std::string_view address, const std::string& logo) {
   Letterhead letterhead;
-  while (!address.empty()) {
-    const std::size_t end = std::min(address.find(';'), address.size());
-    letterhead.address.emplace_back(trim(address.substr(0, end)));
-    address.remove_prefix(std::min(end + 1, address.size()));
-  }
+  while (!address.empty()) letterhead.address.emplace_back(trim(take_field(address, ';')));
   if (logo.empty()) return letterhead;
   letterhead.logo = TRY(read_picture(logo));
   return letterhead;

@@ -71,15 +71,6 @@ void add_glyph(std::set<std::uint32_t>& glyphs, std::uint32_t glyph) {
 
 }  // namespace
 
-char32_t next_character(std::string_view text, std::size_t& at) {
-  const auto byte = [&] { return static_cast<unsigned char>(text[at++]); };
-  const unsigned char first = byte();
-  int more = first < 0xC0 ? 0 : first < 0xE0 ? 1 : first < 0xF0 ? 2 : 3;
-  char32_t character = more == 0 ? first : first & (0x3FU >> more);
-  while (more-- > 0 && at < text.size()) character = character << 6 | (byte() & 0x3FU);
-  return character;
-}
-
 EmbeddedFont::EmbeddedFont() { code(0); }
 
 std::uint16_t EmbeddedFont::code(char32_t character) {

@@ -146,8 +146,8 @@ void TaggedPdf::mark(const std::string& operators) {
 
 std::string TaggedPdf::text(float x, float y, float size, std::string_view line) {
   std::string out = fmt::format("BT /F {} Tf {:.2f} {:.2f} Td <", size, x, y);
-  for (std::size_t at = 0; at < line.size();) {
-    const std::uint16_t code = font_.code(next_character(line, at));
+  while (!line.empty()) {
+    const std::uint16_t code = font_.code(take_character(line));
     for (int shift = 12; shift >= 0; shift -= 4) out += "0123456789ABCDEF"[code >> shift & 15];
   }
   return out += "> Tj ET\n";
@@ -158,8 +158,10 @@ std::vector<std::string> TaggedPdf::wrapped(std::string_view text, float size, f
   while (!text.empty()) {
     std::size_t end = 0;    // of what fits
     std::size_t blank = 0;  // after its last blank
-    for (std::size_t at = 0, width = 0; at < text.size();) {
-      const char32_t character = next_character(text, at);
+    std::size_t width = 0;
+    for (std::string_view rest = text; !rest.empty();) {
+      const char32_t character = take_character(rest);
+      const std::size_t at = text.size() - rest.size();
       width += font_.width(character);
       if (character == ' ')
         blank = at;
@@ -189,7 +191,7 @@ std::string TaggedPdf::picture(const Picture& picture, float x, float y, float w
 
 std::string TaggedPdf::string(std::string_view text) {
   std::string out = "<FEFF";
-  for (std::size_t at = 0; at < text.size();) append_utf16(out, next_character(text, at));
+  while (!text.empty()) append_utf16(out, take_character(text));
   return out += '>';
 }
 

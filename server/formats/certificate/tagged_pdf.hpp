@@ -4,9 +4,6 @@
 
 namespace fitgauge::certificate {
 
-/// Returns the character at `at`, and moves `at` after it. @pre at < text.size()
-char32_t next_character(std::string_view text, std::size_t& at);
-
 /// The compiled-in font (TrueType) for one document. Characters get codes from 1 in the order of
 /// their use. A character that the font lacks is drawn as a box, but can be copied.
 class EmbeddedFont {
@@ -70,7 +67,7 @@ class TaggedPdf {
   std::string text(float x, float y, float size, std::string_view line);
   float width_of(std::string_view line, float size) {
     std::size_t width = 0;
-    for (std::size_t at = 0; at < line.size();) width += font_.width(next_character(line, at));
+    while (!line.empty()) width += font_.width(take_character(line));
     return static_cast<float>(width) * size / 1000;
   }
   /// Returns the text in pieces, each at most `room` wide, that end at blanks.

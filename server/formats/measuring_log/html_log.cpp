@@ -74,11 +74,7 @@ std::vector<Element> elements_of(std::string_view page) {
 std::vector<std::string> cells_of(const Element& row) {
   std::vector<std::string> cells;
   std::string_view rest = row.text;
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('\t'), rest.size());
-    cells.emplace_back(trim(rest.substr(0, end)));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
+  while (!rest.empty()) cells.emplace_back(trim(take_field(rest, '\t')));
   return cells;
 }
 

@@ -23,9 +23,6 @@ enum class Encoding { Detected, Utf8, Utf16, Windows1252 };
 /// `auto`, `utf-8`, `utf-16`, `windows-1252` (also `latin-1` and `iso-8859-1`), in either case.
 std::optional<Encoding> encoding_from_word(std::string_view word);
 
-/// @param point a code point that is no surrogate
-void append_utf8(std::string& out, std::uint32_t point);
-
 /// Removes surrounding blanks and line ends, and joins several blanks to one.
 std::string squeezed(std::string_view text);
 /// The next line, without its end, from the front of a text.

@@ -3,11 +3,9 @@
 #include <unordered_map>
 
 #include "base/allowance.hpp"
-#include "formats/sheet/text_encoding.hpp"
 #include "formats/step/part21_lexer.hpp"
 
 namespace fitgauge::step {
-using sheet::append_utf8;
 
 namespace {
 

@@ -177,8 +177,7 @@ std::optional<Error> Exchange::take_query() {
     return std::string_view(decoded_).substr(start);
   };
   while (!rest.empty()) {
-    const std::string_view pair = rest.substr(0, rest.find('&'));
-    rest.remove_prefix(std::min(pair.size() + 1, rest.size()));
+    const std::string_view pair = take_field(rest, '&');
     if (pair.empty()) continue;
     const std::size_t equals = std::min(pair.find('='), pair.size());
     const auto name = decode(pair.substr(0, equals));

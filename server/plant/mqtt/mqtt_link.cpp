@@ -31,24 +31,12 @@ bool is_escaped(char32_t c) {
          (c >= 0xFDD0 && c <= 0xFDEF) || (c & 0xFFFE) == 0xFFFE;
 }
 
-/// Returns the first character of valid UTF-8, and its number of bytes.
-std::pair<char32_t, std::size_t> front_character(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text.front());
-  const std::size_t size = first < 0x80 ? 1U : first < 0xE0 ? 2U : first < 0xF0 ? 3U : 4U;
-  char32_t c = size == 1 ? first : first & (0xFFU >> (size + 1));
-  for (std::size_t i = 1; i < size && i < text.size(); ++i) {
-    c = c << 6U | (static_cast<unsigned char>(text[i]) & 0x3FU);
-  }
-  return {c, std::min(size, text.size())};
-}
-
 /// Whether a template may have all these characters as they are.
 bool is_literal(std::string_view text) {
   while (!text.empty()) {
-    const auto [c, size] = front_character(text);
+    const char32_t c = take_character(text);
     const bool is_kept = c != U'}' && (c == U'/' || c == U'%' || !is_escaped(c));
     if (!is_kept) return false;
-    text.remove_prefix(size);
   }
   return true;
 }
@@ -63,15 +51,14 @@ std::string topic_level(std::string_view text) {
   if (text == "-") return "%2D";
   std::string level;
   while (!text.empty()) {
-    const auto [c, size] = front_character(text);
-    for (const char byte : text.substr(0, size)) {
-      if (is_escaped(c)) {
-        level += fmt::format("%{:02X}", static_cast<unsigned char>(byte));
-      } else {
-        level += byte;
-      }
+    std::string_view bytes = text;
+    const char32_t c = take_character(text);
+    bytes.remove_suffix(text.size());
+    if (!is_escaped(c)) {
+      level += bytes;
+      continue;
     }
-    text.remove_prefix(size);
+    for (const char byte : bytes) level += fmt::format("%{:02X}", static_cast<unsigned char>(byte));
   }
   return level;
 }

@@ -26,7 +26,7 @@ char latin1_character(std::string_view& text) {
 
 std::string utf8_from_latin1(std::string_view bytes) {
   std::string text;
-  for (const char byte : bytes) sheet::append_utf8(text, static_cast<unsigned char>(byte));
+  for (const char byte : bytes) append_utf8(text, static_cast<unsigned char>(byte));
   return text;
 }
 
