@@ -3,10 +3,8 @@
 #include <unordered_map>
 
 #include "base/allowance.hpp"
-#include "formats/step/part21_lexer.hpp"
 
 namespace fitgauge::step {
-
 namespace {
 
 /// Bytes that may be read again for the sizes of a file.
@@ -103,12 +101,12 @@ class Part21Scanner {
     if (!expect("ISO-10303-21") || !expect("HEADER") || !header()) return false;
     for (;;) {
       const std::string_view section = lexer_.keyword();
-      if (section == kEnd) return (lexer_.take(';') || lexer_.fail("; expected")) && signatures();
+      if (section == kEnd) return lexer_.end() && signatures();
       const bool is_data = section == "DATA";
       if (!is_data && section != "ANCHOR" && section != "REFERENCE")
         return lexer_.fail("DATA or END-ISO-10303-21 expected");
       if (is_data && lexer_.peek() == '(' && !lexer_.list(Part21::kDeepest)) return false;
-      if (!lexer_.take(';')) return lexer_.fail("; expected");
+      if (!lexer_.end()) return false;
       if (is_data ? !instances() : !statements()) return false;
     }
   }
@@ -116,7 +114,7 @@ class Part21Scanner {
  private:
   bool expect(std::string_view word) {
     if (lexer_.keyword() != word) return lexer_.fail("{} expected", word);
-    return lexer_.take(';') || lexer_.fail("; expected");
+    return lexer_.end();
   }
   bool record(std::string_view& name) {
     name = lexer_.keyword();
@@ -130,7 +128,7 @@ class Part21Scanner {
       const std::size_t begin = lexer_.at();
       if (lexer_.keyword() == "ENDSEC") {
         if (!has_schema) return lexer_.fail("the header has no FILE_SCHEMA");
-        return lexer_.take(';') || lexer_.fail("; expected");
+        return lexer_.end();
       }
       lexer_.go_to(begin);
       std::string_view name;
@@ -142,7 +140,7 @@ class Part21Scanner {
         });
         if (!has_schema) return lexer_.fail("FILE_SCHEMA is not AP203, AP214 or AP242");
       }
-      if (!lexer_.take(';')) return lexer_.fail("; expected");
+      if (!lexer_.end()) return false;
     }
     return lexer_.fail("ENDSEC expected");
   }
@@ -151,7 +149,7 @@ class Part21Scanner {
   bool statements() {
     for (;;) {
       const std::size_t begin = lexer_.at();
-      if (lexer_.keyword() == "ENDSEC") return lexer_.take(';') || lexer_.fail("; expected");
+      if (lexer_.keyword() == "ENDSEC") return lexer_.end();
       lexer_.go_to(begin);
       while (!lexer_.take(';')) {
         Parameter token;
@@ -183,7 +181,7 @@ class Part21Scanner {
         continue;
       }
       if (lexer_.keyword() != "ENDSEC") return lexer_.fail("an instance or ENDSEC expected");
-      return lexer_.take(';') || lexer_.fail("; expected");
+      return lexer_.end();
     }
   }
 
@@ -205,7 +203,7 @@ class Part21Scanner {
       if (const auto place = places_.find(entity); place != places_.end())
         file_.by_name_[place->second].push_back(name.id);
     } while (is_complex && !lexer_.take(')'));
-    return lexer_.take(';') || lexer_.fail("; expected");
+    return lexer_.end();
   }
 
   Part21& file_;

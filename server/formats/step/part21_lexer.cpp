@@ -1,4 +1,4 @@
-#include "formats/step/part21_lexer.hpp"
+#include "formats/step/part21.hpp"
 
 namespace fitgauge::step {
 namespace {
