@@ -1,7 +1,6 @@
 #include "cli/measure_command.hpp"
 
 #include "cli/local_files.hpp"
-#include "formats/dfq/measurement_csv.hpp"
 #include "formats/qif/qif.hpp"
 
 namespace fitgauge::cli {
@@ -79,9 +78,13 @@ Outcome<sheet::Words> read_words(std::string_view option, const std::vector<std:
   return words;
 }
 
-/// Settings of a table or a DFQ from the options. @errors Usage
-Outcome<sheet::ShopCsvOptions> table_options(const MeasureOptions& options) {
-  sheet::ShopCsvOptions table{.leaves_out_others = options.leave_out_others};
+/// Settings of a file from the options. @errors Usage
+Outcome<aqdef::MeasurementOptions> table_options(const Context& context,
+                                                 const MeasureOptions& options) {
+  aqdef::MeasurementOptions table;
+  table.leaves_out_others = options.leave_out_others;
+  table.length_unit = aqdef::length_unit(options.length_unit);
+  table.limits_of = limits_by(context);
   table.columns = TRY(read_words("--map", options.columns));
   table.constants = TRY(read_words("--set", options.constants));
   if (!options.encoding.empty()) {
@@ -106,31 +109,17 @@ Outcome<RowInput> opened(const std::string& name, Result<Rows> rows) {
   return RowInput(std::make_shared<RowInput::State>(name, *std::move(rows)));
 }
 
-Outcome<RowInput> open_dfq(const Context& context, const MeasureOptions& options,
-                           sheet::ShopCsvOptions table) {
+Outcome<RowInput> open_dfq(const MeasureOptions& options, aqdef::MeasurementOptions table) {
   const auto file = std::make_shared<InputFile>(TRY(InputFile::open(options.input)));
-  return opened<aqdef::MeasurementCsv>(
-      options.input,
-      aqdef::MeasurementCsv(reading(file), {.encoding = table.encoding,
-                                            .columns = std::move(table.columns),
-                                            .constants = std::move(table.constants),
-                                            .zone = std::move(table.zone),
-                                            .length_unit = aqdef::length_unit(options.length_unit),
-                                            .leaves_out_others = table.leaves_out_others,
-                                            .limits_of = limits_by(context)}));
+  return opened<aqdef::MeasurementCsv>(options.input,
+                                       aqdef::MeasurementCsv(reading(file), std::move(table)));
 }
 
-Outcome<RowInput> open_qif(const Context& context, const MeasureOptions& options,
-                           sheet::ShopCsvOptions table) {
+Outcome<RowInput> open_qif(const MeasureOptions& options, aqdef::MeasurementOptions table) {
   const auto file = std::make_shared<InputFile>(TRY(open_to_read_again(options.input)));
   return opened(options.input,
                 qif::QifRows::open(reading(file), reading_again(file),
-                                   {.constants = std::move(table.constants),
-                                    .zone = std::move(table.zone),
-                                    .length_unit = aqdef::length_unit(options.length_unit),
-                                    .leaves_out_others = table.leaves_out_others,
-                                    .limits_of = limits_by(context),
-                                    .most_rows = std::numeric_limits<std::size_t>::max()}));
+                                   {std::move(table), std::numeric_limits<std::size_t>::max()}));
 }
 
 Outcome<RowInput> open_ndjson(const MeasureOptions& options) {
@@ -158,9 +147,9 @@ bool RowInput::keeps_lines(const MeasureOptions& options) {
 }
 
 Outcome<RowInput> RowInput::open(const Context& context, const MeasureOptions& options) {
-  auto table = TRY(table_options(options));
-  if (qif::is_qif(options.input)) return open_qif(context, options, std::move(table));
-  if (is_dfq(options.input)) return open_dfq(context, options, std::move(table));
+  auto table = TRY(table_options(context, options));
+  if (qif::is_qif(options.input)) return open_qif(options, std::move(table));
+  if (is_dfq(options.input)) return open_dfq(options, std::move(table));
   if (sheet::is_ndjson(options.input)) return open_ndjson(options);
   return open_table(options, std::move(table));
 }

@@ -54,10 +54,12 @@ std::string rewritten(std::string_view text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   static const auto zone = sheet::TimeZone::load("Europe/Berlin");
-  MeasurementCsv csv(read_text(text), {.constants = {{"feature", "hole"}},
-                                       .zone = zone ? std::optional(*zone) : std::nullopt,
-                                       .length_unit = LengthUnit::Millimetre,
-                                       .leaves_out_others = true});
+  MeasurementOptions options;
+  options.constants = {{"feature", "hole"}};
+  if (zone) options.zone = *zone;
+  options.length_unit = LengthUnit::Millimetre;
+  options.leaves_out_others = true;
+  MeasurementCsv csv(read_text(text), options);
   std::string rows;
   std::vector<std::uint32_t> lines;
   for (;;) {

@@ -20,11 +20,12 @@ struct Said {
 Said said(const Read& first, const Read& again) {
   static const auto zone = sheet::TimeZone::load("Europe/Berlin");
   Said said;
-  auto rows = QifRows::open(first, again,
-                            {.constants = {{"feature", "hole"}},
-                             .zone = zone ? std::optional(*zone) : std::nullopt,
-                             .length_unit = aqdef::LengthUnit::Millimetre,
-                             .leaves_out_others = true});
+  QifOptions options;
+  options.constants = {{"feature", "hole"}};
+  if (zone) options.zone = *zone;
+  options.length_unit = aqdef::LengthUnit::Millimetre;
+  options.leaves_out_others = true;
+  auto rows = QifRows::open(first, again, options);
   if (!rows) return {.error = rows.error().message};
   for (;;) {
     const auto more = rows->append(said.text.csv, said.text.lines);

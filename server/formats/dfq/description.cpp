@@ -1,4 +1,4 @@
-#include "formats/dfq/description.hpp"
+#include "formats/dfq/reader.hpp"
 
 namespace fitgauge::aqdef {
 namespace {
@@ -269,8 +269,7 @@ std::string_view user_text(const Description& description, const Characteristic&
   if (description.text(characteristic, k::kUserName) != "fitgauge") return {};
   std::string_view rest = description.text(characteristic, k::kUserText);
   while (!rest.empty()) {
-    const std::string_view one = rest.substr(0, rest.find(';'));
-    rest.remove_prefix(std::min(rest.size(), one.size() + 1));
+    const std::string_view one = take_field(rest, ';');
     if (one.size() > name.size() && one.starts_with(name) && one[name.size()] == '=')
       return one.substr(name.size() + 1);
   }

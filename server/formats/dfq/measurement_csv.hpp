@@ -5,14 +5,11 @@
 
 namespace fitgauge::aqdef {
 
-struct MeasurementOptions {
-  sheet::Encoding encoding = sheet::Encoding::Detected;
-  sheet::Words columns{};                   ///< `K0054` and the field of a measurement that it is
-  sheet::Words constants{};                 ///< a field and its value, if the file has none
-  std::optional<sheet::TimeZone> zone{};    ///< of the times, which have no offset
-  std::optional<LengthUnit> length_unit{};  ///< if K2142 is absent
-  bool leaves_out_others = false;  ///< characteristics and values that are not measurements
-  LimitsOfClass limits_of{};       ///< see read_tolerance
+/// As for a table; columns are `K0054` and the field of a measurement that it is, constants are for
+/// a file without that field, others are characteristics and values that are not measurements.
+struct MeasurementOptions : sheet::ShopCsvOptions {
+  std::optional<LengthUnit> length_unit{};  ///< if the file has none
+  LimitsOfClass limits_of{};                ///< see read_tolerance
 };
 
 /// Converts a DFQ to CSV for /v1/measurements: a header, and a line for each value. K0053 is order,

@@ -26,6 +26,12 @@ void set_apart(Value& value, ValueSet& set) {
   value.is_apart = true;
 }
 
+Result<FieldLine> parse(const Lines::Line& line) {
+  auto field = parse_field_line(line.text);
+  if (!field) return at_line(line.number, field.error().message);
+  return field;
+}
+
 bool begins_value(char c) {
   return (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.' || c == ',' || c == ' ' ||
          c == kFieldSeparator || c == kValueSeparator;
@@ -52,11 +58,10 @@ Result<bool> Reader::next(ValueSet& set) {
       return false;
     }
     if (!is_field_line(line.text)) break;
-    const auto field = parse_field_line(line.text);
-    if (!field) return at_line(line.number, field.error().message);
-    if (level_of(field->number) == Level::Value) break;
-    TRY(check_end(line, &*field));
-    if (const auto added = description_.add(*field, line.number); !added)
+    const auto field = TRY(parse(line));
+    if (level_of(field.number) == Level::Value) break;
+    TRY(check_end(line, &field));
+    if (const auto added = description_.add(field, line.number); !added)
       return at_line(line.number, added.error().message);
   }
   for (;;) {
@@ -71,7 +76,7 @@ Result<bool> Reader::next(ValueSet& set) {
   return true;
 }
 
-Result<bool> Reader::read_set(const Lines::Line& first, ValueSet& set) {
+Result<void> Reader::read_set(const Lines::Line& first, ValueSet& set) {
   set.values.clear();
   set.starts.clear();
   set.apart.clear();
@@ -81,33 +86,25 @@ Result<bool> Reader::read_set(const Lines::Line& first, ValueSet& set) {
   if (!is_of_fields) {
     TRY(add_values(first, set));
   } else {
-    const auto field = parse_field_line(first.text);
-    if (!field) return at_line(first.number, field.error().message);
-    if (field->number != k::kValue && field->number != k::kSubgroupSize) {
+    const auto field = TRY(parse(first));
+    if (field.number != k::kValue && field.number != k::kSubgroupSize) {
       return at_line(first.number, "has K{:04} before any value: write it after its value",
-                     field->number);
+                     field.number);
     }
-    TRY(add_field(*field, first, set));
+    TRY(add_field(field, first, set));
   }
   while (lines_.next(line)) {
-    if (!is_field_line(line.text)) {
-      lines_.unread();
-      return true;
+    bool is_of_set = is_field_line(line.text);
+    if (is_of_set) {
+      const auto field = TRY(parse(line));
+      is_of_set = level_of(field.number) == Level::Value && TRY(add_field(field, line, set));
     }
-    const auto field = parse_field_line(line.text);
-    if (!field) return at_line(line.number, field.error().message);
-    if (level_of(field->number) != Level::Value) {
-      lines_.unread();
-      return true;
-    }
-    const auto added = TRY(add_field(*field, line, set));
-    if (!added) {
-      lines_.unread();
-      return true;
-    }
+    if (is_of_set) continue;
+    lines_.unread();
+    return {};
   }
   if (lines_.failure()) return *lines_.failure();
-  return true;
+  return {};
 }
 
 Result<void> Reader::check_end(const Lines::Line& line, const FieldLine* field) const {

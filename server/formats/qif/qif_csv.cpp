@@ -1,5 +1,4 @@
 #include "formats/qif/qif.hpp"
-#include "formats/qif/xml_reader.hpp"
 
 namespace fitgauge::qif {
 namespace {

@@ -1,11 +1,9 @@
-#include "formats/qif/xml_reader.hpp"
+#include "formats/qif/qif.hpp"
 
 #include <expat.h>
 #include <iconv.h>
 
 #include <cerrno>
-
-#include "formats/dfq/lines.hpp"
 
 namespace fitgauge::qif {
 namespace {

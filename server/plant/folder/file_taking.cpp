@@ -1,6 +1,5 @@
 #include "plant/folder/folder_in.hpp"
 
-#include "formats/dfq/measurement_csv.hpp"
 #include "formats/qif/qif.hpp"
 #include "http/request.hpp"
 #include "service/measurements/gauges_in_use.hpp"
@@ -51,16 +50,9 @@ Result<void> append_all(Source& source, FileRows& rows) {
   }
 }
 
-Result<void> append_dfq(const FolderInOptions& options, const iso286::ToleranceTables& tables,
-                        const RestingFile& file, const RestingFile* description, FileRows& rows) {
-  aqdef::MeasurementCsv csv((description == nullptr ? file : *description).from_begin(),
-                            {.encoding = options.csv.encoding,
-                             .columns = options.csv.columns,
-                             .constants = options.csv.constants,
-                             .zone = options.csv.zone,
-                             .length_unit = options.length_unit,
-                             .leaves_out_others = options.csv.leaves_out_others,
-                             .limits_of = limits_by(tables)});
+Result<void> append_dfq(const aqdef::MeasurementOptions& options, const RestingFile& file,
+                        const RestingFile* description, FileRows& rows) {
+  aqdef::MeasurementCsv csv((description == nullptr ? file : *description).from_begin(), options);
   rows.text += csv.header();
   if (const auto appended = append_all(csv, rows); !appended) {
     Error error = appended.error();
@@ -74,15 +66,10 @@ Result<void> append_dfq(const FolderInOptions& options, const iso286::ToleranceT
   return csv.check();
 }
 
-Result<void> append_qif(const FolderInOptions& options, const iso286::ToleranceTables& tables,
-                        const RestingFile& file, FileRows& rows) {
-  auto values = TRY(qif::QifRows::open(file.from_begin(), file.from_begin(),
-                                       {.constants = options.csv.constants,
-                                        .zone = options.csv.zone,
-                                        .length_unit = options.length_unit,
-                                        .leaves_out_others = options.csv.leaves_out_others,
-                                        .limits_of = limits_by(tables),
-                                        .most_rows = api::kMostRows}));
+Result<void> append_qif(const aqdef::MeasurementOptions& options, const RestingFile& file,
+                        FileRows& rows) {
+  auto values =
+      TRY(qif::QifRows::open(file.from_begin(), file.from_begin(), {options, api::kMostRows}));
   rows.text += values.header();
   TRY(append_all(values, rows));
   return values.check();
@@ -96,22 +83,22 @@ bool is_dfq(std::string_view file_name) {
 /// Reads a table, NDJSON, DFQ or QIF by its name, piece by piece, and keeps only its rows.
 /// @param description of a DFX: its DFD; else null.
 /// @errors BodyTooLarge; those of ShopRows, NdjsonRows, MeasurementCsv and QifRows
-Result<FileRows> read_file_rows(const FolderInOptions& options,
-                                const iso286::ToleranceTables& tables, std::string_view file_name,
-                                const RestingFile& file, const RestingFile* description) {
+Result<FileRows> read_file_rows(const aqdef::MeasurementOptions& options,
+                                std::string_view file_name, const RestingFile& file,
+                                const RestingFile* description) {
   FileRows rows{.media_type = sheet::is_ndjson(file_name) ? "application/x-ndjson" : "text/csv"};
   // Reserved room that is not used needs no memory; a text that grows exists twice for a moment.
   rows.text.reserve(FileRows::kMostBytes + kMostAppended + http::Request::kBodyPadding);
   if (is_dfq(file_name)) {
-    TRY(append_dfq(options, tables, file, description, rows));
+    TRY(append_dfq(options, file, description, rows));
   } else if (qif::is_qif(file_name)) {
-    TRY(append_qif(options, tables, file, rows));
+    TRY(append_qif(options, file, rows));
   } else if (sheet::is_ndjson(file_name)) {
-    const sheet::Encoding encoding = options.csv.encoding;
-    auto records = TRY(sheet::NdjsonRows::open(file.from_begin(), file.from_begin(), encoding));
+    auto records =
+        TRY(sheet::NdjsonRows::open(file.from_begin(), file.from_begin(), options.encoding));
     TRY(append_all(records, rows));
   } else {
-    auto table = TRY(sheet::ShopRows::open(file.from_begin(), file.from_begin(), options.csv));
+    auto table = TRY(sheet::ShopRows::open(file.from_begin(), file.from_begin(), options));
     rows.text += table.header();
     TRY(append_all(table, rows));
   }
@@ -159,7 +146,9 @@ Result<std::optional<std::size_t>> take_file(const FolderInOptions& options, con
   if (description != nullptr) TRY(description->add_to(digest));
   TRY(file.add_to(digest));
   const std::string key = to_hex(digest.finish());
-  const auto rows = read_file_rows(options, *tables, file_name, file, description);
+  aqdef::MeasurementOptions reading = options.csv;
+  reading.limits_of = limits_by(*tables);
+  const auto rows = read_file_rows(reading, file_name, file, description);
   const bool is_unchanged =
       file.is_unchanged() && (description == nullptr || description->is_unchanged());
   if (!is_unchanged) return std::optional<std::size_t>();

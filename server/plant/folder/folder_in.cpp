@@ -318,7 +318,7 @@ void members(V& v, FolderInOptions& options) {
              "Encoding: auto, utf-8, utf-16 or windows-1252 (default: auto)");
   v.optional("other_columns", options.csv.leaves_out_others, Choice{"refuse", "leave_out"},
              "Columns without a field: refuse the file, or leave_out (default: refuse)");
-  v.optional("length_unit", options.length_unit, By{0, read_unit},
+  v.optional("length_unit", options.csv.length_unit, By{0, read_unit},
              "Unit of a DFQ without a unit: mm, inch");
   v.optional("interval_s", options.interval, Within{1, 3600},
              "Seconds between two scans of the folder (default: 10)");

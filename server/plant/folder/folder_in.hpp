@@ -8,9 +8,7 @@
 
 #include "base/digest.hpp"
 #include "base/folder.hpp"
-#include "formats/dfq/description.hpp"
-#include "formats/sheet/shop_csv.hpp"
-#include "formats/sheet/text_encoding.hpp"
+#include "formats/dfq/measurement_csv.hpp"
 #include "plant/plant.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
 
@@ -22,8 +20,7 @@ struct FolderInOptions {
   std::filesystem::path folder{};
   std::vector<std::string> names{"*.csv", "*.txt", "*.ndjson", "*.jsonl",
                                  "*.dfq", "*.dfd", "*.dfx",    "*.qif"};  ///< in either case
-  sheet::ShopCsvOptions csv{};                     ///< of files that are not NDJSON by their name
-  std::optional<aqdef::LengthUnit> length_unit{};  ///< of a DFQ or QIF without a unit
+  aqdef::MeasurementOptions csv{};    ///< of files that are not NDJSON by their name
   std::chrono::seconds interval{10};  ///< between two scans; the kernel reports changes at once
   std::chrono::seconds rest{2};       ///< size and time must be unchanged for this time
   std::size_t most_file_bytes = std::size_t{32} << 20;

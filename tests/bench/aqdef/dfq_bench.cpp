@@ -29,9 +29,11 @@ int main(int argc, char** argv) {
   std::string said;
   std::size_t characteristics = 0;
   if (argc > 2 && std::string_view(argv[2]) == "rows") {
-    MeasurementCsv csv(read, {.zone = fitgauge::sheet::TimeZone::load("UTC").value(),
-                              .length_unit = fitgauge::aqdef::LengthUnit::Millimetre,
-                              .leaves_out_others = true});
+    fitgauge::aqdef::MeasurementOptions options;
+    options.zone = fitgauge::sheet::TimeZone::load("UTC").value();
+    options.length_unit = fitgauge::aqdef::LengthUnit::Millimetre;
+    options.leaves_out_others = true;
+    MeasurementCsv csv(read, options);
     std::string rows;
     std::vector<std::uint32_t> lines;
     for (;;) {

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "formats/qif/xml_reader.hpp"
+#include "formats/qif/qif.hpp"
 #include "support/qif_text.hpp"
 
 namespace fitgauge::qif {
@@ -175,9 +175,8 @@ TEST_CASE("an input that fails is told with its words") {
 
 TEST_CASE("rows, definitions and elements are bounded") {
   const std::string text = written(30);
-  CHECK(error_of(text, {.most_rows = 30}).empty());
-  CHECK(error_of(text, {.most_rows = 29}).find("comes after 29 measured values") !=
-        std::string::npos);
+  CHECK(error_of(text, {{}, 30}).empty());
+  CHECK(error_of(text, {{}, 29}).find("comes after 29 measured values") != std::string::npos);
   // One element of more than it may have, given piece by piece: nothing of it is kept for long.
   const std::string begin =
       R"(<QIFDocument xmlns="http://qifstandards.org/xsd/qif3"><CharacteristicItems><I id="1">)";
