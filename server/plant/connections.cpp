@@ -273,7 +273,8 @@ Result<ConnectionTest> Connections::test(const std::string& name) {
     under_test_.erase(name);
     tested_.notify_all();
   });
-  return found.settings.test(plant_, stopping_.get_token());
+  const TestResult tested = found.settings.test(plant_, stopping_.get_token());
+  return ConnectionTest{tested.has_value(), tested ? *tested : tested.error().message};
 }
 
 }  // namespace fitgauge::connections

@@ -33,7 +33,7 @@ struct Settings {
   /// Starts the connection. @param plant must outlive it.
   std::function<std::unique_ptr<Worker>(const Plant& plant)> start;
   /// Tests the other side once, independently of the worker. Blocks up to half a minute.
-  std::function<ConnectionTest(const Plant& plant, const std::stop_token& stop)> test;
+  std::function<TestResult(const Plant& plant, const std::stop_token& stop)> test;
   std::optional<FollowerOptions> follower{};  ///< of an outgoing connection
 };
 
@@ -51,7 +51,7 @@ const std::vector<Kind>& kinds();
 /// A kind whose folder defines for its options
 ///   `void members(V&, Options&)`, see base/json/body.hpp,
 ///   `make(const Options&, const Plant&)`, the Worker or, of options with a follower, the Outlet,
-///   `ConnectionTest test_of(const Options&, const Plant&, const std::stop_token&)`.
+///   `TestResult test_of(const Options&, const Plant&, const std::stop_token&)`.
 template <class Options>
 Kind kind_of(std::string_view kind) {
   static constexpr bool kFollows = requires(Options options) { options.follower; };

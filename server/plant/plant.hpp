@@ -92,6 +92,8 @@ struct ConnectionTest {
   bool ok = false;
   std::string detail{};
 };
+/// How a kind of connection gives it: with an error, the other side was not reached.
+using TestResult = Result<std::string>;
 
 }  // namespace fitgauge::connections
 

@@ -331,17 +331,14 @@ std::unique_ptr<Worker> make(const FolderInOptions& options, const Plant& plant)
 }
 
 /// Whether the folder can be read, and files moved in it.
-ConnectionTest test_of(const FolderInOptions& options, const Plant&, const std::stop_token&) {
-  const auto check = [&]() -> Result<void> {
-    const auto folder = TRY(Folder::open(options.folder));
-    for (const char* name : {"done", "failed"}) {
-      const auto sub = TRY(folder.sub(name));
-      TRY(sub.check_writable());
-    }
-    return folder.check_writable();
-  }();
-  if (!check) return {.ok = false, .detail = check.error().message};
-  return {.ok = true, .detail = "the folder can be read, and files moved in it"};
+TestResult test_of(const FolderInOptions& options, const Plant&, const std::stop_token&) {
+  const auto folder = TRY(Folder::open(options.folder));
+  for (const char* name : {"done", "failed"}) {
+    const auto sub = TRY(folder.sub(name));
+    TRY(sub.check_writable());
+  }
+  TRY(folder.check_writable());
+  return "the folder can be read, and files moved in it";
 }
 
 Kind folder_in_kind() { return kind_of<FolderInOptions>("folder_in"); }

@@ -181,15 +181,12 @@ std::unique_ptr<Outlet> make(const FolderOutOptions& options, const Plant& plant
 }
 
 /// Whether a file can be written there.
-ConnectionTest test_of(const FolderOutOptions& options, const Plant&, const std::stop_token&) {
+TestResult test_of(const FolderOutOptions& options, const Plant&, const std::stop_token&) {
   const std::string name = fmt::format(".{}.test", options.follower.name);
-  const auto folder = Folder::open(options.folder);
-  if (!folder) return {.ok = false, .detail = folder.error().message};
-  if (const auto written = folder->write(name, "fitgauge\n"); !written) {
-    return {.ok = false, .detail = written.error().message};
-  }
-  folder->remove(name);
-  return {.ok = true, .detail = "a file can be written"};
+  const auto folder = TRY(Folder::open(options.folder));
+  TRY(folder.write(name, "fitgauge\n"));
+  folder.remove(name);
+  return "a file can be written";
 }
 
 }  // namespace

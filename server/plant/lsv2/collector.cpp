@@ -195,17 +195,17 @@ std::unique_ptr<Worker> make(const MachineOptions& machine, const Plant& plant) 
 }
 
 /// Logs in and lists the watched folders once. Waits for the control.
-ConnectionTest test_of(const MachineOptions& machine, const Plant&, const std::stop_token& stop) {
+TestResult test_of(const MachineOptions& machine, const Plant&, const std::stop_token& stop) {
   auto control = connect(machine, stop);
-  if (!control) return {.ok = false, .detail = control.error().message};
+  if (!control) return Error{ErrorCode::NotReady, control.error().message};
   std::size_t files = 0;
   for (const std::string& folder : folders_of(machine)) {
     const auto entries = control->list(folder, machine.most_entries);
-    if (!entries) return {.ok = false, .detail = folder + ": " + entries.error().message};
+    if (!entries) return Error{ErrorCode::NotReady, folder + ": " + entries.error().message};
     files += static_cast<std::size_t>(std::ranges::count_if(
         *entries, [&](const auto& entry) { return is_watched(machine, folder, entry); }));
   }
-  return {.ok = true, .detail = fmt::format("logged in; {} files are watched", files)};
+  return fmt::format("logged in; {} files are watched", files);
 }
 
 template <class V>

@@ -170,8 +170,7 @@ std::unique_ptr<Outlet> make(const MqttOptions& options, const Plant& plant) {
   return std::make_unique<Mqtt>(all, plant);
 }
 
-ConnectionTest test_of(const MqttOptions& options, const Plant& plant,
-                       const std::stop_token& stop) {
+TestResult test_of(const MqttOptions& options, const Plant& plant, const std::stop_token& stop) {
   return test_broker(options.broker, options.follower.name, plant, stop);
 }
 

@@ -158,14 +158,14 @@ Broker named(Broker broker, std::string_view origin, std::string_view connection
   return broker;
 }
 
-ConnectionTest test_broker(const Broker& broker, std::string_view connection, const Plant& plant,
-                           const std::stop_token& stop) {
+TestResult test_broker(const Broker& broker, std::string_view connection, const Plant& plant,
+                       const std::stop_token& stop) {
   Broker probe = named(broker, plant.origin, connection);
   probe.client_id += "-test";  // the broker would send the connection itself away
   MqttClient client(probe, {}, [] {});
-  if (auto failure = client.wait_connected(stop)) return {.ok = false, .detail = *failure};
+  if (auto failure = client.wait_connected(stop)) return Error{ErrorCode::NotReady, *failure};
   client.leave();
-  return {.ok = true, .detail = "the broker accepts the connection"};
+  return "the broker accepts the connection";
 }
 
 }  // namespace fitgauge::connections

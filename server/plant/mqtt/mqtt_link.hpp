@@ -124,7 +124,7 @@ void broker_members(V& v, Broker& broker) {
 Broker named(Broker broker, std::string_view origin, std::string_view connection);
 
 /// Connects under a separate client id without sending.
-ConnectionTest test_broker(const Broker& broker, std::string_view connection, const Plant& plant,
-                           const std::stop_token& stop);
+TestResult test_broker(const Broker& broker, std::string_view connection, const Plant& plant,
+                       const std::stop_token& stop);
 
 }  // namespace fitgauge::connections

@@ -157,8 +157,8 @@ std::unique_ptr<Outlet> make(const SparkplugOptions& options, const Plant& plant
   return std::make_unique<Sparkplug>(all, plant);
 }
 
-ConnectionTest test_of(const SparkplugOptions& options, const Plant& plant,
-                       const std::stop_token& stop) {
+TestResult test_of(const SparkplugOptions& options, const Plant& plant,
+                   const std::stop_token& stop) {
   return test_broker(options.broker, options.follower.name, plant, stop);
 }
 

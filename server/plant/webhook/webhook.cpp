@@ -226,16 +226,15 @@ std::unique_ptr<Outlet> make(const WebhookOptions& options, const Plant& plant) 
 }
 
 /// Posts one event `connection.test` to the receiver.
-ConnectionTest test_of(const WebhookOptions& options, const Plant& plant,
-                       const std::stop_token& stop) {
+TestResult test_of(const WebhookOptions& options, const Plant& plant, const std::stop_token& stop) {
   const Timestamp now = plant.clock.now();
   std::string body = begun_event("connection.test", now);
   api::JsonWriter(body).begin_object().member("connection", options.follower.name).end_object();
   body += '}';
   const HttpAnswer answer =
       Webhook(options, plant).send(fmt::format("test-{}", now.nanoseconds), body, stop);
-  const bool ok = answer.status >= 200 && answer.status <= 299;
-  return {.ok = ok, .detail = reason_of(answer)};
+  if (answer.status >= 200 && answer.status <= 299) return reason_of(answer);
+  return Error{ErrorCode::NotReady, reason_of(answer)};
 }
 
 }  // namespace
