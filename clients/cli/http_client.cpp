@@ -7,6 +7,28 @@
 namespace fitgauge::cli {
 namespace {
 
+constexpr std::string_view kDrive = "TNC:\\";
+
+/// Without the drive, with `/` between the folders.
+std::string slashed(std::string_view path) {
+  if (ascii_iequals(path.substr(0, kDrive.size() - 1), "TNC:"))
+    path.remove_prefix(kDrive.size() - 1);
+  std::string out(path);
+  std::replace(out.begin(), out.end(), '\\', '/');
+  return out.substr(std::min(out.find_first_not_of('/'), out.size()));
+}
+
+std::string_view host_of(std::string_view url) {
+  url.remove_prefix(url.find("://") + 3);
+  const std::string_view authority = url.substr(0, url.find('/'));
+  if (authority.starts_with('[')) return authority.substr(0, authority.find(']') + 1);
+  return authority.substr(0, authority.find(':'));
+}
+
+bool is_unreserved(char c) {
+  return is_ascii_alphanumeric(c) || c == '-' || c == '.' || c == '_' || c == '~';
+}
+
 constexpr long kConnectSeconds = 5;
 constexpr long kAnswerSeconds = 120;
 constexpr long kSilenceSeconds = 45;  // the service sends a sign of life every 15 s
@@ -48,7 +70,75 @@ std::size_t take_body(char* data, std::size_t, std::size_t size, void* user) {
   return CURL_WRITEFUNC_ERROR;
 }
 
+constexpr long kUnauthorized = 401;
+constexpr long kForbidden = 403;
+constexpr long kServerError = 500;
+
+std::optional<std::size_t> line_of(const JsonValue& entry) {
+  return read_number<std::size_t>(entry.text_of("line"));
+}
+
+ExitCode exit_code_of(const Answer& answer) {
+  if (answer.status == kUnauthorized || answer.status == kForbidden) return ExitCode::KeyNeeded;
+  if (answer.status >= kServerError || is_temporary(answer)) return ExitCode::NoAnswer;
+  return ExitCode::Refused;
+}
+
+/// The detail, or the list of the fields, which has the detail with its place.
+std::string sentence(const Problem& problem) {
+  if (problem.fields.empty()) return problem.detail.empty() ? problem.title : problem.detail;
+  std::string text;
+  for (const FieldProblem& field : problem.fields)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", field.pointer, field.detail);
+  return text;
+}
+
 }  // namespace
+
+Outcome<std::string> service_url(std::string_view text) {
+  std::string url(trim(text));
+  if (url.find("://") == std::string::npos) url.insert(0, "http://");
+  while (url.ends_with('/')) url.pop_back();
+  const bool known = url.starts_with("http://") || url.starts_with("https://");
+  if (known && !host_of(url + '/').empty()) return url;
+  return Failure::of(ExitCode::Usage,
+                     "the address of the service must be such as http://127.0.0.1:8286; got '{}'",
+                     text);
+}
+
+bool is_loopback(std::string_view url) {
+  const std::string_view host = host_of(url);
+  return host == "localhost" || host == "[::1]" || host.starts_with("127.");
+}
+
+std::string percent_encoded(std::string_view text, std::string_view kept) {
+  std::string out;
+  for (const char c : text) {
+    if (is_unreserved(c) || kept.find(c) != std::string_view::npos) {
+      out += c;
+    } else {
+      out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+  }
+  return out;
+}
+
+std::string file_target(std::string_view path) {
+  std::string out = "/v1/files";
+  const std::string rest = slashed(path);
+  for (const std::string_view part : split(rest, '/')) out += '/' + percent_encoded(part);
+  return out;
+}
+
+std::string control_path(std::string_view path) {
+  std::string out = slashed(path);
+  std::replace(out.begin(), out.end(), '/', '\\');
+  return out.insert(0, kDrive);
+}
+
+std::string_view base_name(std::string_view path) {
+  return path.substr(path.find_last_of("/\\") + 1);
+}
 
 HttpClient::HttpClient(Connection connection)
     : connection_(std::move(connection)), handle_(std::make_unique<http_client::CurlHandle>()) {}
@@ -124,6 +214,68 @@ Outcome<Answer> send_until_answered(HttpClient& client, const Request& request, 
     notice(failure, *wait);
     std::this_thread::sleep_for(*wait);
   }
+}
+
+std::optional<Problem> problem_of(const Answer& answer) {
+  if (!answer.content_type.starts_with("application/problem+json")) return std::nullopt;
+  const auto document = parse_document(answer.body);
+  if (!document) return std::nullopt;
+  Problem problem{.code = std::string(document->text_of("code")),
+                  .title = std::string(document->text_of("title")),
+                  .detail = std::string(document->text_of("detail")),
+                  .where = std::string(document->text_of("where"))};
+  // The detail describes all of an input that cannot be read.
+  if (problem.code.ends_with(".malformed")) return problem;
+  for (const JsonValue& entry : document->member("errors").items) {
+    problem.fields.push_back({.pointer = std::string(entry.text_of("pointer")),
+                              .line = line_of(entry),
+                              .detail = std::string(entry.text_of("detail"))});
+  }
+  return problem;
+}
+
+Failure failure_of(const Answer& answer, const std::string& url) {
+  const auto problem = problem_of(answer);
+  if (!problem) {
+    return {exit_code_of(answer),
+            fmt::format(
+                "{} returns status {} without a problem document: check that fitgauged runs there",
+                url, answer.status)};
+  }
+  std::string text = sentence(*problem);
+  if (answer.status == kUnauthorized) text += "; set FITGAUGE_KEY, or give a file with --key-file";
+  if (answer.status == kForbidden) text += "; use a key with another role";
+  return {exit_code_of(answer), std::move(text), answer.body};
+}
+
+bool is_temporary(const Answer& answer) {
+  constexpr long kTimeout = 408;
+  constexpr long kConflict = 409;
+  constexpr long kTooMany = 429;
+  switch (answer.status) {
+    case kTimeout:
+    case kTooMany:
+    case 502:
+    case 503:
+    case 504: return true;
+    case kConflict: {
+      const auto problem = problem_of(answer);
+      return problem && problem->code == "idempotency.in_progress";
+    }
+    default: return false;
+  }
+}
+
+Outcome<Answer> expect_ok(Outcome<Answer> answer, const std::string& url) {
+  if (!answer || answer->ok()) return answer;
+  return failure_of(*answer, url);
+}
+
+Outcome<JsonValue> read_document(const Answer& answer, const std::string& url) {
+  auto document = parse_document(answer.body);
+  if (document) return *std::move(document);
+  return Failure::of(ExitCode::NoAnswer, "{} does not return JSON: check that fitgauged runs there",
+                     url);
 }
 
 }  // namespace fitgauge::cli

@@ -53,12 +53,6 @@ std::string run_target(const std::string& id) { return "/v1/runs/" + percent_enc
 // `setups ls`, `setups put NAME FILE`, `setups get NAME [FILE]`, `setups rm NAME`: `-` is standard
 // input or output.
 
-Outcome<ExitCode> run_stored_ls(const Context& context, const StoredKind& kind) {
-  return list(context, std::string(kind.path), kind.member, [](const JsonValue& stored) {
-    return fmt::format("{}  {}", stored.text_of("modified_at"), stored.text_of("name"));
-  });
-}
-
 Outcome<ExitCode> run_stored_put(const Context& context, const StoredKind& kind,
                                  const std::string& name, const std::string& file) {
   const auto text = TRY(read_file(file));
@@ -66,11 +60,6 @@ Outcome<ExitCode> run_stored_put(const Context& context, const StoredKind& kind,
                                .target = document_target(kind, name),
                                .content_type = "application/json",
                                .body = text}));
-}
-
-Outcome<ExitCode> run_stored_get(const Context& context, const StoredKind& kind,
-                                 const std::string& name, const std::string& file) {
-  return fetch(context, document_target(kind, name), file);
 }
 
 Outcome<ExitCode> run_stored_rm(const Context& context, const StoredKind& kind,
@@ -159,7 +148,11 @@ void add_kind(CLI::App& app, Action& chosen, const StoredKind& kind) {
   stored->require_subcommand(1);
   const Word name{"name", fmt::format("Name of {}", kind.what)};
   add_words(*stored, "ls", fmt::format("List the names of the {}", kind.command), chosen, {}, 0,
-            [&kind](const Context& context, const Words&) { return run_stored_ls(context, kind); });
+            [&kind](const Context& context, const Words&) {
+              return list(context, std::string(kind.path), kind.member, [](const auto& each) {
+                return fmt::format("{}  {}", each.text_of("modified_at"), each.text_of("name"));
+              });
+            });
   add_words(*stored, "put", fmt::format("Store {}: {} put m3 m3.json", kind.what, kind.command),
             chosen, {name, {"file", "JSON file; - is standard input"}}, 2,
             [&kind](const Context& context, const Words& words) {
@@ -168,7 +161,7 @@ void add_kind(CLI::App& app, Action& chosen, const StoredKind& kind) {
   add_words(*stored, "get", fmt::format("Print {}, or write it to a file", kind.what), chosen,
             {name, {"file", "File to write (default: standard output)"}}, 1,
             [&kind](const Context& context, const Words& words) {
-              return run_stored_get(context, kind, words[0], words[1]);
+              return fetch(context, document_target(kind, words[0]), words[1]);
             });
   add_words(*stored, "rm", fmt::format("Delete {}", kind.what), chosen, {name}, 1,
             [&kind](const Context& context, const Words& words) {
