@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <csignal>
 
-#include "api/handlers.hpp"
 #include "api/runs/run_posting.hpp"
 #include "base/folder.hpp"
 #include "daemon/log.hpp"

@@ -5,7 +5,6 @@
 
 #include <csignal>
 
-#include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/service/guard.hpp"
 #include "daemon/log.hpp"

@@ -1,4 +1,3 @@
-#include "api/handlers.hpp"
 #include "api/wire/request_facts.hpp"
 #include "plant/connections.hpp"
 

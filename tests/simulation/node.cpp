@@ -1,7 +1,7 @@
 #include "node.hpp"
 
-#include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
+#include "api/services.hpp"
 #include "base/gzip.hpp"
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "api/measurements/measurement_listing.hpp"
+#include "api/measurements/measurements.hpp"
 #include "record/record.hpp"
 #include "record/verdict_codec.hpp"
 

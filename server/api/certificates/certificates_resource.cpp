@@ -1,6 +1,5 @@
 #include "api/certificates/certificate_draft.hpp"
-#include "api/handlers.hpp"
-#include "api/measurements/measurement_listing.hpp"
+#include "api/measurements/measurements.hpp"
 #include "service/jobs.hpp"
 #include "service/log/log_service.hpp"
 

@@ -1,6 +1,5 @@
 #include "api/resources.hpp"
 
-#include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/json/body_forms.hpp"

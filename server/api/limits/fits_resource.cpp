@@ -1,6 +1,5 @@
-#include "api/handlers.hpp"
 #include "api/limits/limits_codec.hpp"
-#include "api/measurements/measurement_listing.hpp"
+#include "api/measurements/measurements.hpp"
 #include "api/resources.hpp"
 #include "api/statistics/value_selection.hpp"
 #include "api/wire/formulas.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "api/services.hpp"
 #include "base/json/body_forms.hpp"
-#include "http/response.hpp"
 #include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {

@@ -1,6 +1,5 @@
 #include "api/resources.hpp"
 
-#include "api/handlers.hpp"
 #include "api/limits/limits_codec.hpp"
 #include "record/verdict_codec.hpp"
 

@@ -1,4 +1,3 @@
-#include "api/handlers.hpp"
 #include "api/resources.hpp"
 #include "base/json/json_writer.hpp"
 #include "service/log/log_service.hpp"

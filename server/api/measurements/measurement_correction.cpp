@@ -1,4 +1,4 @@
-#include "api/measurements/measurement_posting.hpp"
+#include "api/measurements/measurements.hpp"
 
 #include "record/measurement_row_reader.hpp"
 #include "service/log/log_service.hpp"

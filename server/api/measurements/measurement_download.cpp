@@ -1,6 +1,5 @@
-#include "api/measurements/measurement_listing.hpp"
+#include "api/measurements/measurements.hpp"
 
-#include "api/handlers.hpp"
 #include "formats/dfq/dfq_writer.hpp"
 #include "formats/qif/qif.hpp"
 #include "formats/xlsx/workbook.hpp"

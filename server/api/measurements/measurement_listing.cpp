@@ -1,8 +1,6 @@
-#include "api/measurements/measurement_listing.hpp"
-#include "api/handlers.hpp"
+#include "api/measurements/measurements.hpp"
 
 #include "api/limits/limits_codec.hpp"
-#include "api/wire/request_facts.hpp"
 #include "record/note.hpp"
 #include "record/record.hpp"
 #include "service/log/log_service.hpp"

@@ -1,6 +1,5 @@
-#include "api/measurements/measurement_posting.hpp"
+#include "api/measurements/measurements.hpp"
 
-#include "api/measurements/measurement_listing.hpp"
 #include "service/jobs.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 #include "service/tables/table_catalog.hpp"

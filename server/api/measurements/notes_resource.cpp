@@ -1,6 +1,5 @@
-#include "api/measurements/measurement_listing.hpp"
+#include "api/measurements/measurements.hpp"
 
-#include "api/measurements/measurement_posting.hpp"
 #include "api/service/document_routes.hpp"
 #include "record/note.hpp"
 

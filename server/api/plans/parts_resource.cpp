@@ -1,4 +1,3 @@
-#include "api/handlers.hpp"
 #include "api/plans/characteristic_key.hpp"
 #include "api/resources.hpp"
 #include "base/json/body_forms.hpp"

@@ -1,4 +1,3 @@
-#include "api/handlers.hpp"
 #include "api/service/document_routes.hpp"
 #include "formats/step/drawing.hpp"
 #include "record/measurement_row_reader.hpp"

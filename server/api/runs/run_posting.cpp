@@ -2,7 +2,6 @@
 
 #include <future>
 
-#include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/wire/request_facts.hpp"
 #include "service/jobs.hpp"

@@ -1,4 +1,3 @@
-#include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/runs/run_posting.hpp"
 #include "api/wire/event_text.hpp"

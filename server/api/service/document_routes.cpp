@@ -1,6 +1,5 @@
 #include "api/service/document_routes.hpp"
 
-#include "api/handlers.hpp"
 #include "api/statistics/computation.hpp"
 #include "api/wire/request_facts.hpp"
 #include "service/jobs.hpp"

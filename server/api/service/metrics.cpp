@@ -1,6 +1,6 @@
 #include "api/service/metrics.hpp"
 
-#include "api/handlers.hpp"
+#include "api/services.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -1,4 +1,3 @@
-#include "api/handlers.hpp"
 #include "api/resources.hpp"
 #include "api/service/metrics.hpp"
 #include "base/json/json_writer.hpp"

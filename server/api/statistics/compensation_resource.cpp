@@ -1,5 +1,4 @@
-#include "api/handlers.hpp"
-#include "api/measurements/measurement_listing.hpp"
+#include "api/measurements/measurements.hpp"
 #include "api/statistics/next_offset.hpp"
 #include "api/wire/event_text.hpp"
 #include "api/wire/formulas.hpp"

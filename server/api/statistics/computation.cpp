@@ -1,6 +1,5 @@
 #include "api/statistics/computation.hpp"
 
-#include "api/handlers.hpp"
 #include "service/jobs.hpp"
 
 namespace fitgauge::api {

@@ -1,4 +1,3 @@
-#include "api/handlers.hpp"
 #include "api/service/document_routes.hpp"
 #include "api/statistics/statistics_answers.hpp"
 #include "api/wire/request_facts.hpp"

@@ -1,5 +1,4 @@
-#include "api/handlers.hpp"
-#include "api/measurements/measurement_listing.hpp"
+#include "api/measurements/measurements.hpp"
 #include "api/statistics/statistics_answers.hpp"
 #include "service/jobs.hpp"
 

@@ -1,4 +1,3 @@
-#include "api/handlers.hpp"
 #include "api/limits/limits_codec.hpp"
 #include "api/resources.hpp"
 #include "api/wire/request_facts.hpp"
@@ -31,10 +30,7 @@ Result<std::vector<ClassId>> chosen_classes(std::string_view names, Feature feat
     return std::vector<ClassId>(all.begin(), all.end());
   }
   std::vector<ClassId> chosen;
-  for (std::size_t begin = 0; begin <= names.size();) {
-    const std::size_t comma = std::min(names.find(',', begin), names.size());
-    const std::string_view name = names.substr(begin, comma - begin);
-    begin = comma + 1;
+  for (const std::string_view name : split(names, ',')) {
     const auto id = tables.find_class(name);
     if (!id) return Error{ErrorCode::ClassUnknown, id.error().message};
     if (tables.feature(*id) != feature) {

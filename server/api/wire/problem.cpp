@@ -1,4 +1,4 @@
-#include "api/handlers.hpp"
+#include "api/services.hpp"
 
 #include "base/json/json_writer.hpp"
 

@@ -84,9 +84,7 @@ std::string next_link(const Request& request, std::string_view cursor) {
   char separator = '?';
   std::string_view rest = request.query();
   while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('&'), rest.size());
-    const std::string_view pair = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+    const std::string_view pair = take_field(rest, '&');
     if (pair.empty() || pair.starts_with("after=")) continue;
     link += separator;
     link += pair;

@@ -1,6 +1,6 @@
 #include "api/wire/response_cache.hpp"
 
-#include "api/handlers.hpp"
+#include "api/services.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -1,4 +1,4 @@
-#include "api/measurements/measurement_listing.hpp"
+#include "api/measurements/measurements.hpp"
 #include "base/folder.hpp"
 #include "formats/dfq/dfq_writer.hpp"
 #include "formats/qif/qif.hpp"

@@ -1,6 +1,5 @@
 #include "plant/mtconnect/mtconnect_document.hpp"
 
-#include "api/handlers.hpp"
 #include "formats/qif/qif.hpp"
 
 namespace fitgauge::api {

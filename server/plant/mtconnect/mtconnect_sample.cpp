@@ -1,6 +1,5 @@
 #include "plant/mtconnect/mtconnect_document.hpp"
 
-#include "api/handlers.hpp"
 #include "service/log/log_service.hpp"
 
 namespace fitgauge::api {

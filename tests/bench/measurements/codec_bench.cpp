@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "api/measurements/measurement_posting.hpp"
+#include "api/measurements/measurements.hpp"
 #include "http/request.hpp"
 #include "record/measurement_batch.hpp"
 #include "record/record.hpp"

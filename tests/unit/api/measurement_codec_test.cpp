@@ -1,4 +1,4 @@
-#include "api/measurements/measurement_listing.hpp"
+#include "api/measurements/measurements.hpp"
 
 #include <doctest/doctest.h>
 
