@@ -78,6 +78,7 @@ int open_directly(const fs::path& path) {
 }  // namespace
 
 Outcome<InputFile> InputFile::open(const std::string& path) {
+  // A copy of standard input: the file closes its descriptor.
   InputFile input = path == "-"
                         ? InputFile("standard input", fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0))
                         : InputFile(path, ::open(path.c_str(), O_RDONLY | O_CLOEXEC));

@@ -4,8 +4,6 @@
 
 #include "nc/program/program_cache.hpp"
 
-/// The knowledge of the language server about a place of a program, in either dialect.
-
 namespace fitgauge::cli {
 
 /// A place as an editor counts (LSP 3.17): lines from 0, then UTF-16 code units.
@@ -106,6 +104,8 @@ class OpenPrograms {
   std::map<std::string, OpenProgram> all_;
   interpreter::ProgramCache cache_;
 };
+
+// The knowledge of the language server about a place of a program, in either dialect.
 
 /// The cycle whose block a line belongs to.
 struct CycleAt {

@@ -7,12 +7,13 @@ namespace fitgauge {
 /// another thread frees is counted there.
 std::int64_t thread_memory();
 
-/// Adds `bytes` to the count of the calling thread, for memory of another thread.
+/// Adds `bytes` to the count of the calling thread, for memory that another thread allocates or
+/// frees.
 void hand_over_memory(std::int64_t bytes);
 
 /// Budget of one piece of work: wall-clock time, memory of its thread, and a stop request. Every
 /// loop whose length a user chooses checks it and ends if it is spent. A spent budget stays spent,
-/// so an incomplete result can be recognised. Belongs to its thread; any may request the stop.
+/// so an incomplete result can be recognised. Belongs to one thread; any may request the stop.
 class Allowance {
  public:
   enum class Spent : std::uint8_t { Nothing, Stop, Time, Memory };

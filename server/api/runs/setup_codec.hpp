@@ -6,7 +6,7 @@
 
 namespace fitgauge::api {
 
-// Forms of a setup's members: lengths are exact decimals in mm or µm, and doubles of the machine.
+// Forms of a setup's members: lengths are exact decimals in mm or µm, and doubles in the machine.
 
 using Mm = Millimetres;
 using Um = Micrometres;

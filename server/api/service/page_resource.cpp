@@ -11,7 +11,7 @@ using PageFiles = std::map<std::string, Prepared, std::less<>>;
 
 constexpr std::string_view kEntry = "index.html";
 
-/// The page loads nothing from other sites, runs only its scripts, and is in no frame of another.
+/// The page loads nothing from other sites, runs only its scripts, and no other site frames it.
 constexpr std::string_view kPolicy =
     "default-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'";

@@ -11,7 +11,7 @@ namespace fitgauge::api {
 
 metrology::Exact exact_mm(Length length);
 
-/// Ids of measurements, in four bytes each: neighbours mostly are of one folder and rise.
+/// Ids of measurements, in four bytes each: most of one folder, with rising numbers.
 class MeasurementIds {
  public:
   void add(std::int64_t number, std::string_view origin);

@@ -16,12 +16,8 @@ constexpr int kIt1 = static_cast<int>(StandardToleranceGrade::IT1);
 Length tolerance_of_gauge(Feature feature, int grade, const iso286::NominalSizeRange& step) {
   static const iso286::StandardTables standard(iso286::compiled_in_tables().cells);
   const bool is_hole = feature == Feature::Hole;
-  const int made_to = grade >= 13   ? 7
-                      : grade >= 11 ? 5
-                      : is_hole     ? (grade >= 7 ? 3 : 2)
-                                    : (grade >= 8   ? 4
-                                       : grade >= 6 ? 3
-                                                    : 2);
+  int made_to = is_hole ? 2 + (grade >= 7) : 2 + (grade >= 6) + (grade >= 8);
+  if (grade >= 11) made_to = grade >= 13 ? 7 : 5;
   const auto as_grade = static_cast<StandardToleranceGrade>(made_to - 1 + kIt1);
   return standard_tolerance(standard, as_grade, step).value();
 }

@@ -64,7 +64,8 @@ struct Failure {
   std::string instead{};  ///< the text that is right in this place, if known
 };
 
-/// The value of what cannot be read: empty, and dropped with the block.
+/// The value of what cannot be read: empty, and dropped with the block. Not for functions that
+/// return std::optional, which would then have a value.
 struct Dropped {
   template <class T>
   operator T() const {  // NOLINT: of any type

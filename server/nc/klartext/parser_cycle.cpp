@@ -3,9 +3,6 @@
 
 /// Cycles in Q-form. Their block is read line by line: each physical line may end with a comment
 /// (the dialog text) and a wrap.
-/// Sub-lines of dotted cycles. Sub-lines with only words are read strictly. The others have dialog
-/// text in the language of the control (`9.1 DWELL 0.5`, `9.1 V.ZEIT 0.5`), so words and numbers
-/// are picked out of it.
 namespace fitgauge::klartext {
 namespace {
 
@@ -111,6 +108,10 @@ Statement parse_cycle_call(BlockReader& in) {
   call.words = parse_words(in, words);
   return call;
 }
+
+// Sub-lines of dotted cycles. Sub-lines with only words are read strictly. The others have dialog
+// text in the language of the control (`9.1 DWELL 0.5`, `9.1 V.ZEIT 0.5`), so words and numbers are
+// picked out of it.
 
 constexpr std::uint32_t kLargestPart = 99;
 

@@ -4,8 +4,6 @@
 
 /// The grammar: one function for each family of blocks, which begins after the block's first
 /// keyword and reads to the end of its code. After a failure their results are dropped.
-/// The plain forms of Klartext, each described once: the parser reads a statement along its form()
-/// and the printer writes it along the same one. `io` is a FormReader or a FormWriter.
 namespace fitgauge::klartext {
 
 // parser_expression.cpp
@@ -63,7 +61,7 @@ Statement parse_pattern(BlockReader& in);
 Statement parse_tool(BlockReader& in);
 /// `5`, `5.1`, `Q5`, `"NAME"`, `QS1`; Absent when none of them is next.
 Expr parse_tool_name(BlockReader& in);
-/// Reads a letter of an axis that only a blank or the end follows.
+/// Reads an axis that is one letter alone: of `Z`, of `X-`; none of `XY`.
 std::optional<Axis> parse_axis_alone(BlockReader& in);
 
 // parser_transformation.cpp
@@ -78,6 +76,9 @@ void parse_frame(BlockReader& in, Text& name, Unit& unit);
 Statement refuse_word(BlockReader& in, std::string_view first);
 /// The statement of a block that is not empty.
 Statement parse_statement(BlockReader& in);
+
+// The plain forms of Klartext, each described once: the parser reads a statement along its form()
+// and the printer writes it along the same one. `io` is a FormReader or a FormWriter.
 
 /// Reads the members of a form, after its first words.
 class FormReader {

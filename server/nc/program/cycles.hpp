@@ -8,8 +8,8 @@ namespace fitgauge::interpreter {
 using probing::Arguments, probing::ArgumentValue, probing::CycleDescriptor, probing::CycleParameter,
     probing::ParameterId, probing::TouchProbeCycle;
 
-/// The machining cycles, for the linker, /v1/cycles and the run. They run as motion of the tool:
-/// positions, depths and feeds as on the control; no material is removed.
+// The machining cycles, for the linker, /v1/cycles and the run. They run as motion of the tool:
+// positions, depths and feeds as on the control; no material is removed.
 
 /// The path of a machining cycle.
 enum class MachiningShape : std::uint8_t {

@@ -7,7 +7,7 @@
 
 namespace fitgauge::interpreter {
 
-/// The flat code that programs run as: three-address instructions over one array of doubles.
+// The flat code that programs run as: three-address instructions over one array of doubles.
 
 /// Cells: first the parameters, then the cells of the running program.
 inline constexpr std::uint32_t kFirstQ = 0;

@@ -248,8 +248,8 @@ Result<void> LogIntake::check_rows(const ForwardedBatch& batch) const {
   return {};
 }
 
-/// Numbers the table revisions, and the folder in a commit before the rows, so that every reader of
-/// a row knows their names.
+/// Numbers the table revisions and the folder, each in a commit before the rows, so that every
+/// reader of a row knows their names.
 Result<void> LogIntake::prepare(const ForwardedBatch& batch, Known& known) {
   std::set<std::string_view> revisions;
   for (const auto& row : batch.rows) revisions.insert(row.measurement.table_revision);

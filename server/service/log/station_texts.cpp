@@ -49,6 +49,7 @@ void write_answer(std::string& text, const store::IdempotencyStore::Forwarded& k
 /// Keys are renewed more rarely.
 constexpr std::size_t kMostHandOvers = 100;
 
+/// A member's number, or `number` with its type.
 template <class Number = std::int64_t>
 Number number_of(const JsonValue& json, std::string_view name, Number number = 0) {
   if (const JsonValue* value = json.find(name)) {

@@ -293,8 +293,8 @@ Result<RevisionIntake::Outcome> RevisionIntake::take(const RevisionPage& page) {
   return taken.outcome;
 }
 
-/// Numbers the table revisions of the centre's corrections, and the centre in a commit before the
-/// rows, so that every reader of a row knows their names.
+/// Numbers the table revisions of the centre's corrections, and the centre, each in a commit before
+/// the rows, so that every reader of a row knows their names.
 Result<void> RevisionIntake::prepare(const RevisionPage& page) {
   std::set<std::string_view> revisions;
   std::set<std::string_view> centres;

@@ -111,6 +111,7 @@ void evaluate(KinematicsMeasurement& measurement, const Kinematics& active,
 /// Returns `location of axis C (0.0012 mm, twice its uncertainty 0.0300 mm)` for the first
 /// insignificant value; of an axis, its location is sufficient.
 std::string insignificant(const AxisErrors& errors) {
+  // In the order of ErrorKind.
   constexpr std::array<std::string_view, 3> kNames{"location", "direction", "zero"};
   for (std::size_t kind = 0; kind < kNames.size(); ++kind) {
     const auto& found = errors.found[kind];
