@@ -76,8 +76,11 @@ void append_value(std::string& bytes, std::string_view value) { bytes += value; 
 template <class Value>
 void append_value(std::string& bytes,
                   const Value& value) requires(std::is_enum_v<Value> || std::is_integral_v<Value>) {
-  using Stored = std::conditional_t<std::is_enum_v<Value>, std::int16_t, std::int64_t>;
-  append_number(bytes, static_cast<Stored>(value));
+  if constexpr (std::is_enum_v<Value>) {
+    append_number(bytes, static_cast<std::int16_t>(code_of(value)));
+  } else {
+    append_number(bytes, std::int64_t{value});
+  }
 }
 
 /// The bytes of a field of a row or an element of an array; -1 is the length of a NULL.

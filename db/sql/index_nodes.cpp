@@ -66,8 +66,8 @@ void add_tuples(const TupleWriter& tuples, PairIndex::Node& index) {
 
 }  // namespace
 
-Source source_of(int kind) { return static_cast<Source>(kind / 8); }
-Verdict verdict_of(int kind) { return static_cast<Verdict>(kind % 8); }
+Source source_of(int kind) { return sql::value_of<Source>(kind / 8); }
+Verdict verdict_of(int kind) { return sql::value_of<Verdict>(kind % 8); }
 
 bool is_asked(const MeasurementFilter& filter, int kind) {
   return (!filter.source || source_of(kind) == *filter.source) &&

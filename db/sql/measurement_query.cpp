@@ -227,7 +227,7 @@ std::vector<FieldValue> MeasurementQuery::postings_of(const MeasurementFilter& f
     add_text(field);
   }
   const auto add_code = [&](IndexField field, const auto& code) {
-    if (code) postings.push_back({number_of(field), std::to_string(static_cast<int>(*code))});
+    if (code) postings.push_back({number_of(field), std::to_string(code_of(*code))});
   };
   add_code(IndexField::Verdict, filter.verdict);
   add_code(IndexField::Source, filter.source);

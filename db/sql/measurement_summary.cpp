@@ -279,7 +279,7 @@ void MeasurementSummary::add(std::optional<std::string_view> value, Verdict verd
     group = groups_.try_emplace(value ? std::optional(std::string(*value)) : std::nullopt).first;
   }
   group->second.statistics.add(statistics);
-  group->second.verdicts.at(static_cast<std::size_t>(verdict) - 1) += statistics.count();
+  group->second.verdicts.at(static_cast<std::size_t>(verdict)) += statistics.count();
 }
 
 }  // namespace fitgauge::store

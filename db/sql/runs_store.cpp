@@ -74,8 +74,8 @@ RunsStore::RunsStore(sql::Connection& connection)
 std::int64_t RunsStore::create(const Run& run) {
   const std::string program_key = ascii_upper(run.program);
   return statements_->insert.returning<std::int64_t>(run.status, run.program, program_key,
-                                                     run.request, run.result, run.created_at_ns,
-                                                     run.finished_at_ns, run.caller);
+                                                     run.request, run.result, run.created_at,
+                                                     run.finished_at, run.caller);
 }
 
 Result<void> RunsStore::start(std::int64_t id) {

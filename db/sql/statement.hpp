@@ -2,6 +2,7 @@
 
 #include <boost/pfr.hpp>
 
+#include "base/clock.hpp"
 #include "base/digest.hpp"
 #include "db/sql/connection.hpp"
 
@@ -23,7 +24,7 @@ inline constexpr bool kIsBytes<std::array<std::uint8_t, size>> = true;
 
 template <class T>
 constexpr Kind kind_of_value() {
-  if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) {
+  if constexpr (std::is_enum_v<T> || std::is_integral_v<T> || std::is_same_v<T, Timestamp>) {
     return Kind::Integer;
   } else if constexpr (kIsBytes<T> || std::is_same_v<T, Blob>) {
     return Kind::Bytes;
@@ -35,22 +36,26 @@ constexpr Kind kind_of_value() {
 /// Refuses a number without an enumerator. @throws StorageFailure (StorageCorrupt)
 [[noreturn]] void refuse_code(std::int64_t stored);
 
-/// An enumeration is stored by its codes, from 1 to the code of `last_of(Code)`, which is declared
+/// An enumeration is stored by its codes, from 1 to the code of `last_of(Value)`, which is declared
 /// with it.
-template <class Code>
-Code code_of(std::int64_t stored) {
-  if (stored < 1 || stored > static_cast<std::int64_t>(last_of(Code{}))) refuse_code(stored);
-  return static_cast<Code>(stored);
+template <class Value>
+Value value_of(std::int64_t code) {
+  if (code < 1 || code > code_of(last_of(Value{}))) refuse_code(code);
+  return static_cast<Value>(code + static_cast<std::int64_t>(Value{}) - code_of(Value{}));
 }
 
-/// Binds an integer, enumeration, text, array of bytes, Blob, or an optional of these.
+/// Binds an integer, enumeration, time, text, array of bytes, Blob, or an optional of these.
 template <class Statement, class T>
 void bind_value(Statement& statement, int index, const T& value) {
   if constexpr (kIsOptional<T>) {
     using Value = typename T::value_type;
     value ? bind_value(statement, index, *value)
           : statement.bind_null(index, kind_of_value<Value>());
-  } else if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) {
+  } else if constexpr (std::is_enum_v<T>) {
+    statement.bind_integer(index, code_of(value));
+  } else if constexpr (std::is_same_v<T, Timestamp>) {
+    statement.bind_integer(index, value.nanoseconds);
+  } else if constexpr (std::is_integral_v<T>) {
     statement.bind_integer(index, static_cast<std::int64_t>(value));
   } else if constexpr (kIsBytes<T>) {
     statement.bind_blob(index, {reinterpret_cast<const char*>(value.data()), value.size()});
@@ -74,15 +79,17 @@ class Rows {
   bool next() { return prepared_->step(); }
   int columns() const { return prepared_->columns(); }
 
-  /// A column from 0 on: integer, enumeration, text, array of bytes, Blob, or an optional of these.
-  /// Views are valid until the next step.
+  /// A column from 0 on: integer, enumeration, time, text, array of bytes, Blob, or an optional of
+  /// these. Views are valid until the next step.
   template <class T>
   T get(int column) const {
     if constexpr (kIsOptional<T>) {
       if (prepared_->is_null(column)) return std::nullopt;
       return get<typename T::value_type>(column);
     } else if constexpr (std::is_enum_v<T>) {
-      return code_of<T>(prepared_->integer(column));
+      return value_of<T>(prepared_->integer(column));
+    } else if constexpr (std::is_same_v<T, Timestamp>) {
+      return Timestamp{prepared_->integer(column)};
     } else if constexpr (std::is_integral_v<T>) {
       return static_cast<T>(prepared_->integer(column));
     } else if constexpr (kIsBytes<T>) {
@@ -104,7 +111,8 @@ class Rows {
 /// Whether a member is one column that outlives its row: structs and arrays of numbers are several,
 /// and a Blob is a view.
 template <class T>
-inline constexpr bool kIsColumn = kIsBytes<T> || !std::is_aggregate_v<T>;
+inline constexpr bool kIsColumn =
+    kIsBytes<T> || std::is_same_v<T, Timestamp> || !std::is_aggregate_v<T>;
 template <class T>
 inline constexpr bool kIsColumn<std::optional<T>> = kIsColumn<T>;
 

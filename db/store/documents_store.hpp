@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/clock.hpp"
+
 namespace fitgauge::store {
 
 namespace sql {
@@ -51,12 +53,11 @@ struct FileEntry {
   std::string path{};         ///< as last written, with upper and lower case
   std::int64_t revision = 0;  ///< rises with every write and delete of any file
   std::int64_t size = 0;      ///< bytes
-  std::int64_t modified_at_ns = 0;
+  Timestamp modified_at{};
   std::optional<std::string> caller{};
 };
 
-struct FileContent {
-  FileEntry entry{};
+struct FileContent : FileEntry {
   std::string content{};
 };
 
@@ -131,7 +132,7 @@ struct Event {
   std::int64_t id = 0;
   std::string type{};
   std::string payload{};  ///< opaque here
-  std::int64_t created_at_ns = 0;
+  Timestamp at{};
 };
 
 /// Events for replay, the newest ones only. Ids rise and are never used twice.

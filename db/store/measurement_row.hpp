@@ -5,38 +5,15 @@
 
 namespace fitgauge::store {
 
-// The codes are stored: never change one, never use one again.
-enum class Source : std::uint8_t { Gauge = 1, Simulation = 2 };
-enum class Feature : std::uint8_t { Hole = 1, Shaft = 2 };
-/// Source of the limits. None is without limits; Bare is also without a nominal size.
-enum class Basis : std::uint8_t {
-  Iso286 = 1,
-  Custom = 2,
-  Explicit = 3,
-  Standard = 4,
-  None = 5,
-  Bare = 6
-};
-enum class Verdict : std::uint8_t {
-  Good = 1,
-  Rework = 2,
-  Reject = 3,
-  Indeterminate = 4,
-  Unjudged = 5
-};
-enum class Quantity : std::uint8_t {
-  Diameter = 1,
-  Width = 2,
-  PitchDiameter = 3,
-  Position = 4,
-  Distance = 5,
-  Radius = 6,
-  Chamfer = 7,
-  Deviation = 8
-};
-enum class Rule : std::uint8_t { Simple = 1, GuardBand = 2, Conformance = 3 };
+using app::Source;
+using gauging::Quantity;
+using gauging::Verdict;
+using iso286::Feature;
+using Basis = app::LimitsBasis;
+using Rule = gauging::DecisionRule::Kind;
+enum class RunStatus : std::uint8_t;
 
-// Returns the greatest code of an enumeration: a code that was read may not exceed it.
+// Returns the greatest value of a stored enumeration.
 constexpr Source last_of(Source) { return Source::Simulation; }
 constexpr Feature last_of(Feature) { return Feature::Shaft; }
 constexpr Basis last_of(Basis) { return Basis::Bare; }
@@ -44,25 +21,34 @@ constexpr Verdict last_of(Verdict) { return Verdict::Unjudged; }
 constexpr Quantity last_of(Quantity) { return Quantity::Deviation; }
 constexpr Rule last_of(Rule) { return Rule::Conformance; }
 
+template <class Value, class... Those>
+inline constexpr bool kIsOneOf = (std::is_same_v<Value, Those> || ...);
+
+/// The code of a value in the database: never change one, never use one again. Codes count from 1,
+/// also of an enumeration that counts from 0.
+template <class Value>
+constexpr std::int64_t code_of(Value value) {
+  constexpr bool kIsFromZero =
+      kIsOneOf<Value, Source, Feature, Basis, Verdict, Quantity, Rule, RunStatus>;
+  return static_cast<std::int64_t>(value) + (kIsFromZero ? 1 : 0);
+}
+static_assert(code_of(Verdict::Unjudged) == 5 && code_of(Quantity::Deviation) == 8);
+
 /// One stored measurement. Lengths in nm, times in ns since 1970 (UTC), scaled numbers in
 /// millionths. Texts are views. In an append they point to the caller's memory until the job is
 /// done. In a visitor they point to the database's memory while it runs.
 struct MeasurementRow : app::MeasurementFields {
   std::int64_t id = 0;  ///< rising without gaps
-  Source source = Source::Gauge;
   std::int64_t measured_at_ns = 0;
   std::int64_t received_at_ns = 0;
 
-  std::optional<Quantity> quantity{};                 ///< none in rows of older versions
   std::int64_t nominal_nm = 0;                        ///< 0 when the basis is Bare
   std::optional<std::string_view> tolerance_class{};  ///< none unless the basis is a standard
-  Feature feature = Feature::Hole;
-  std::int64_t upper_deviation_nm = 0;          ///< without that limit: 2e15
-  std::int64_t lower_deviation_nm = 0;          ///< and here -2e15
-  std::optional<std::int64_t> size_over_nm{};   ///< the step of the standard tolerance
-  std::optional<std::int64_t> size_up_to_nm{};  ///< both or neither
-  Basis basis = Basis::Iso286;
-  std::optional<std::int64_t> table_revision{};  ///< TableRevision::number; none for Explicit
+  std::int64_t upper_deviation_nm = 0;                ///< without that limit: 2e15
+  std::int64_t lower_deviation_nm = 0;                ///< and here -2e15
+  std::optional<std::int64_t> size_over_nm{};         ///< the step of the standard tolerance
+  std::optional<std::int64_t> size_up_to_nm{};        ///< both or neither
+  std::optional<std::int64_t> table_revision{};       ///< TableRevision::number; none for Explicit
 
   std::int64_t measured_nm = 0;
   Verdict verdict = Verdict::Good;

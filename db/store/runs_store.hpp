@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/clock.hpp"
+
 namespace fitgauge::store {
 
 namespace sql {
@@ -8,17 +10,23 @@ class Connection;
 
 // The members of rows are the columns in their order: sql::row_of reads them so.
 
-// The codes are stored: never change one, never use one again.
+// Their codes are stored (code_of): never change the order.
 enum class RunStatus : std::uint8_t {
-  Queued = 1,
-  Running = 2,
-  Completed = 3,
-  Stopped = 4,
-  Failed = 5,
-  LimitExceeded = 6,
-  Cancelled = 7,
-  Cancelling = 8,  ///< still running; another daemon of the database requested its end
+  Queued,
+  Running,
+  Completed,
+  Stopped,
+  Failed,
+  LimitExceeded,
+  Cancelled,
+  Cancelling,  ///< still running; another daemon of the database requested its end
 };
+inline constexpr std::array<std::string_view, 8> kRunWords = {
+    "queued", "running",        "completed", "stopped",
+    "failed", "limit_exceeded", "cancelled", "running"};
+constexpr std::string_view word(RunStatus status) {
+  return kRunWords.at(static_cast<std::size_t>(status));
+}
 constexpr RunStatus last_of(RunStatus) { return RunStatus::Cancelling; }
 
 constexpr bool is_finished(RunStatus status) {
@@ -31,8 +39,8 @@ struct Run {
   std::string program{};
   std::string request{};  ///< opaque here
   std::string result{};   ///< opaque here; empty until finished
-  std::int64_t created_at_ns = 0;
-  std::optional<std::int64_t> finished_at_ns{};
+  Timestamp created_at{};
+  std::optional<Timestamp> finished_at{};
   std::optional<std::string> caller{};
 };
 

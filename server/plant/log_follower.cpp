@@ -225,9 +225,10 @@ class LogFollower final : public Worker {
       const bool is_new = std::exchange(told_[made], news->told) != news->told;
       made_.erase(made_.begin());
       if (!is_new || !options_.events.contains(news->event) || news->newest.empty()) continue;
-      pending_events_.push_back({{.type = std::string(news->event),
-                                  .payload = std::move(news->data),
-                                  .at = plant_.clock.now()},
+      pending_events_.push_back({{{.type = std::string(news->event),
+                                   .payload = std::move(news->data),
+                                   .at = plant_.clock.now()},
+                                  {}},
                                  "c" + news->newest.substr(1)});
       events_behind_ = read_to_;
     }

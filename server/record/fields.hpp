@@ -1,12 +1,25 @@
 #pragma once
 
-#include "metrology/gauging/conformance.hpp"
+#include "metrology/gauging/gauge.hpp"
 
 namespace fitgauge::app {
+
+/// The source of a measurement: a gauge at a part, or the simulated machine.
+enum class Source : std::uint8_t { Gauge, Simulation };
+/// Source of the limits: a class of the tables, a custom tolerance class, the drawing, or a
+/// designation of another standard; None: a value without limits; Bare: also without a nominal
+/// size.
+enum class LimitsBasis : std::uint8_t { Iso286, Custom, Explicit, Standard, None, Bare };
 
 /// Texts and numbers of a measurement that are stored, logged and answered as they are. Texts are
 /// views of the memory that they were read from.
 struct MeasurementFields {
+  Source source = Source::Gauge;
+  /// None in records of versions that stored diameters and positions alike.
+  std::optional<gauging::Quantity> quantity{};
+  iso286::Feature feature = iso286::Feature::Hole;
+  LimitsBasis basis = LimitsBasis::Iso286;
+
   std::optional<std::string_view> part_id{};
   std::optional<std::string_view> characteristic{};
   std::optional<std::string_view> order{};

@@ -54,7 +54,8 @@ bool sets_aside(std::span<const Note> notes) {
 std::string_view word(Source source) { return source == Source::Gauge ? "gauge" : "simulation"; }
 
 std::string_view word(LimitsBasis basis) {
-  constexpr std::string_view kWords[] = {"iso286", "custom", "explicit", "standard", "none"};
+  constexpr std::string_view kWords[] = {"iso286",   "custom", "explicit",
+                                         "standard", "none",   "none"};
   return kWords[static_cast<std::size_t>(basis)];
 }
 
@@ -114,7 +115,6 @@ void apply_limits(Measurement& measurement, const standards::DesignatedLimits& l
 
 void apply_limits(Measurement& measurement, const Measurement& other) {
   if (!measurement.quantity) measurement.quantity = other.quantity;
-  measurement.has_nominal = other.has_nominal;
   measurement.nominal_size = other.nominal_size;
   measurement.class_name = other.class_name;
   measurement.feature = other.feature;
@@ -126,8 +126,7 @@ void apply_limits(Measurement& measurement, const Measurement& other) {
 }
 
 void apply_no_limits(Measurement& measurement, std::optional<Length> nominal) {
-  measurement.basis = LimitsBasis::None;
-  measurement.has_nominal = nominal.has_value();
+  measurement.basis = nominal ? LimitsBasis::None : LimitsBasis::Bare;
   measurement.nominal_size = nominal.value_or(Length());
   measurement.deviations = {.upper = kNoLimit, .lower = -kNoLimit};
 }

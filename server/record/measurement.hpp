@@ -28,12 +28,6 @@ bool sets_aside(std::span<const Note> notes);
 
 class Origins;
 
-/// The source of a measurement: a gauge at a part, or the simulated machine.
-enum class Source : std::uint8_t { Gauge, Simulation };
-/// Source of the limits: a class of the tables, a custom tolerance class, the drawing, or a
-/// designation of another standard; None: a value without limits.
-enum class LimitsBasis : std::uint8_t { Iso286, Custom, Explicit, Standard, None };
-
 std::string_view word(Source source);
 std::string_view word(LimitsBasis basis);
 std::optional<Source> source_from_word(std::string_view text);
@@ -63,19 +57,13 @@ struct Measurement : MeasurementFields {
   // Once it is read from the store:
   std::int64_t row = 0;            ///< its place in this folder
   std::int64_t origin_number = 0;  ///< of the folder that has stored it; 0 is this one
-  Source source = Source::Gauge;
   Timestamp measured_at;
   Timestamp received_at;
 
-  /// None in records of versions that stored diameters and positions alike.
-  std::optional<gauging::Quantity> quantity;
-  bool has_nominal = true;  ///< a value without limits may have none
   Length nominal_size;
-  std::optional<std::string_view> class_name;  ///< none when the basis is Explicit or None
-  iso286::Feature feature = iso286::Feature::Hole;
+  std::optional<std::string_view> class_name;  ///< none when the basis is Explicit, None or Bare
   iso286::LimitDeviations deviations;
   std::optional<iso286::NominalSizeRange> size_range;
-  LimitsBasis basis = LimitsBasis::Iso286;
   std::string_view table_revision;  ///< of the standard's numbers; empty without a class
   std::optional<std::int64_t> revision_number;  ///< of table_revision, once number_revisions has it
 
@@ -100,7 +88,8 @@ struct Measurement : MeasurementFields {
 
   Length upper_limit() const { return nominal_size + deviations.upper; }
   Length lower_limit() const { return nominal_size + deviations.lower; }
-  bool is_judged() const { return basis != LimitsBasis::None; }
+  bool is_judged() const { return basis < LimitsBasis::None; }
+  bool has_nominal() const { return basis != LimitsBasis::Bare; }
   /// Its class of a table; other standards have none: their limits and quantity are the record's.
   std::string_view table_class() const {
     return basis == LimitsBasis::Standard ? "" : class_name.value_or("");

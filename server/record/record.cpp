@@ -102,8 +102,7 @@ bool same_times(const Measurement& a, const Measurement& b) {
 
 bool same_limits(const Measurement& a, const Measurement& b) {
   const auto limits = [](const Measurement& m) {
-    return std::tie(m.has_nominal, m.nominal_size, m.class_name, m.deviations, m.size_range,
-                    m.basis);
+    return std::tie(m.nominal_size, m.class_name, m.deviations, m.size_range, m.basis);
   };
   return limits(a) == limits(b);
 }

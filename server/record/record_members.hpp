@@ -81,7 +81,7 @@ inline constexpr std::tuple kComputed = {
                    if (m.coverage_factor) to.decimal(m.coverage_factor->millionths(), 6);
                  }},
     RecordMember{"designation", 0, [](M m, auto to) { to.out.designation(m); }, kLimits},
-    RecordMember{"deviation_um", 15, [](M m, auto to) { to.um(if_so(m.has_nominal, m.decisive() - m.nominal_size)); }},
+    RecordMember{"deviation_um", 15, [](M m, auto to) { to.um(if_so(m.has_nominal(), m.decisive() - m.nominal_size)); }},
     RecordMember{"envelope_result", 60, [](M m, auto to) { to.word(envelope_result(m)); }},
     RecordMember{"excess_um", 17, [](M m, auto to) { to.um(if_so(m.is_judged(), m.result.excess)); }},
     RecordMember{"feature", 7, [](M m, auto to) { to.word(m.has_feature() ? word(m.feature) : ""); }},
@@ -100,7 +100,7 @@ inline constexpr std::tuple kComputed = {
                  [](M m, auto to) { to.mm(if_so(m.has_lower_limit(), m.lower_limit())); }, kLimits},
     RecordMember{"measured_at", 3, [](M m, auto to) { to.time(m.measured_at); }, kTimes},
     RecordMember{"measured_mm", 14, [](M m, auto to) { to.mm(m.measured); }},
-    RecordMember{"nominal_mm", 5, [](M m, auto to) { to.mm(if_so(m.has_nominal, m.nominal_size)); }, kLimits},
+    RecordMember{"nominal_mm", 5, [](M m, auto to) { to.mm(if_so(m.has_nominal(), m.nominal_size)); }, kLimits},
     RecordMember{"probability", 37,
                  [](M m, auto to) {
                    if (m.conformance) to.decimal(m.rule.probability().millionths(), 6);

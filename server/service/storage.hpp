@@ -9,7 +9,6 @@ class DirectoryLock;
 class KeyRing;
 struct MeasurementRow;
 struct Run;
-enum class RunStatus : std::uint8_t;
 struct Stores;
 struct VerifyReport;
 

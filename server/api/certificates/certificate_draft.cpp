@@ -16,7 +16,7 @@ std::string size_text(const app::Measurement& m) {
   if (m.class_name) {
     standards::append_designation(text, m.nominal_size, *m.class_name);
   } else {
-    if (m.has_nominal) text = format_mm(m.nominal_size) + ' ';
+    if (m.has_nominal()) text = format_mm(m.nominal_size) + ' ';
     text += m.has_feature() ? word(m.feature) : word(*m.quantity);
   }
   return m.envelope ? text + " (E)" : text;
@@ -187,7 +187,7 @@ void CertificateDraft::add(const app::Measurement& m) {
        .measured =
            measured_text(m) + taken_text(m) +
            (m.correction_reason ? fmt::format("; corrected: {}", *m.correction_reason) : ""),
-       .deviation = m.has_nominal ? (Length() < deviation ? "+" : "") + format_um(deviation) : "",
+       .deviation = m.has_nominal() ? (Length() < deviation ? "+" : "") + format_um(deviation) : "",
        .verdict = std::string(word(m.result.verdict)),
        .rule = rule,
        .uncertainty = uncertainty_text(m),

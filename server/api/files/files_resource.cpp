@@ -59,8 +59,9 @@ void get_file(const Services& services, const Request& request, Responder respon
   services.files.read(
       std::move(path),
       answer_with(std::move(responder), [if_match = preconditions_of(request).if_match](
-                                            app::DiskFile file) {
-        return with_tag(foreign_bytes("application/octet-stream", std::move(file.bytes)), if_match);
+                                            store::FileContent file) {
+        return with_tag(foreign_bytes("application/octet-stream", std::move(file.content)),
+                        if_match);
       }));
 }
 
@@ -73,7 +74,7 @@ void delete_file(const Services& services, const Request& request, Responder res
 }
 
 struct FilesAnswer {
-  std::vector<app::DiskFile> files{};
+  std::vector<store::FileEntry> files{};
 };
 void members(auto& v, const FilesAnswer& answer) {
   v.member("files", answer.files, "Sorted by path");
@@ -85,7 +86,7 @@ void list_files(const Services& services, const Request& request, Responder resp
   if (!ascii_iequals(prefix.substr(0, app::kDrive.size()), app::kDrive))
     prefix.insert(0, app::kDrive);
   services.files.list(std::move(prefix),
-                      answer_with(std::move(responder), [](std::vector<app::DiskFile> files) {
+                      answer_with(std::move(responder), [](std::vector<store::FileEntry> files) {
                         return json_response(body_json(FilesAnswer{std::move(files)}));
                       }));
 }
@@ -123,7 +124,7 @@ const Parameter kPath =
 
 }  // namespace
 
-void members(auto& v, const app::DiskFile& file) {
+void members(auto& v, const store::FileEntry& file) {
   v.member("path", file.path, "Path on the control");
   v.member("href", file.path.empty() ? std::string() : href(file.path), "Address at this service");
   v.member("size", file.size, "Size in bytes");

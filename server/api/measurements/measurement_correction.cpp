@@ -63,7 +63,7 @@ void take_over_limits(MeasurementRowReader& reader, const JsonValue& body,
                       const app::Measurement& original) {
   if (!names_any(body, kLimitsFields)) return reader.take_limits(original);
   if (body.find("designation") != nullptr) return;
-  if (original.has_nominal) offer(reader, "nominal_mm", format_mm(original.nominal_size));
+  if (original.has_nominal()) offer(reader, "nominal_mm", format_mm(original.nominal_size));
   if (!original.class_name && original.quantity)
     offer(reader, "quantity", word(*original.quantity));
   if (body.find("tolerance_class") != nullptr) return;

@@ -221,13 +221,9 @@ Result<app::MeasurementQuery> measurement_query(const Services& services, const 
     query.run_origin = run->origin;
     query.source.reset();  // a run's measurements have no gauge
   }
-  if (const auto verdict = text_of("verdict"))
-    query.verdict = app::code_of<store::Verdict>(*gauging::verdict_from_word(*verdict));
+  if (const auto verdict = text_of("verdict")) query.verdict = gauging::verdict_from_word(*verdict);
   // `all` is no source, so that the filter is off.
-  if (const auto text = text_of("source")) {
-    const auto source = app::source_from_word(*text);
-    query.source = source ? std::optional(app::code_of<store::Source>(*source)) : std::nullopt;
-  }
+  if (const auto text = text_of("source")) query.source = app::source_from_word(*text);
   const auto time_of = [&](std::string_view name) {
     const auto time = request.time(named(name));
     return time ? std::optional(time->nanoseconds) : std::nullopt;

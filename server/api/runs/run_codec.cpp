@@ -302,13 +302,14 @@ std::string unfinished_run_json(const app::ActiveRun& run) {
 
 std::string unfinished_run_json(const app::StoredRun& run) {
   return body_json(
-      RunAnswer{.head = {run.id_text(), run.state, run.program}, .created_at = run.created_at});
+      RunAnswer{.head = {run.id_text(), run.status, run.program}, .created_at = run.created_at});
 }
 
 std::string run_page_json(const app::RunService::Page& page, std::string_view next) {
   RunListAnswer list;
   for (const app::StoredRun& run : page.runs)
-    list.runs.push_back({{run.id_text(), run.state, run.program}, run.created_at, run.finished_at});
+    list.runs.push_back(
+        {{run.id_text(), run.status, run.program}, run.created_at, run.finished_at});
   if (!next.empty()) list.next = next;
   return body_json(list);
 }

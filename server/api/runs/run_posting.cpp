@@ -98,13 +98,13 @@ void replay(const SharedPosting& posting, app::Answer kept) {
   posting->services.runs.find(
       *id, [posting, kept = std::move(kept)](Result<app::StoredRun> run) mutable {
         if (!run) return posting->responder.fail(run.error());
-        if (run->report.empty()) {
+        if (run->result.empty()) {
           return posting->responder.fail(
               {ErrorCode::IdempotencyInProgress,
                "the first request with this Idempotency-Key is still running: try again soon"});
         }
         kept.content_type = "application/json";
-        kept.body = std::move(run->report);
+        kept.body = std::move(run->result);
         posting->responder.answer(replayed(std::move(kept)));
       });
 }

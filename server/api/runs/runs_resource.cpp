@@ -28,7 +28,7 @@ void with_run_json(const Services& services, const Request& request, Responder r
   }
   services.runs.find(
       id, answer_with(std::move(responder), [answer_of](app::StoredRun run) {
-        return answer_of(run.report.empty() ? unfinished_run_json(run) : std::move(run.report));
+        return answer_of(run.result.empty() ? unfinished_run_json(run) : std::move(run.result));
       }));
 }
 
@@ -62,8 +62,8 @@ std::string media_type_of(const std::string& path) {
 void get_run_file(const Services& services, const Request& request, Responder responder) {
   const auto id = TRY_OR_FAIL(responder, id_of(services, request));
   services.runs.file(id, std::string(*request.text("name")),
-                     answer_with(std::move(responder), [](app::RunService::File file) {
-                       return foreign_bytes(media_type_of(file.path), std::move(file.bytes));
+                     answer_with(std::move(responder), [](store::RunFile file) {
+                       return foreign_bytes(media_type_of(file.path), std::move(file.content));
                      }));
 }
 
@@ -110,7 +110,7 @@ void get_events(const Services& services, const Request& request, Responder resp
   const auto last = last_event_id(request);
   services.runs.follow(id, answer_with(std::move(responder), [last](app::RunService::Followed run) {
                          return run.active ? run_events(std::move(run.active), last)
-                                           : finished_run_events(run.stored.report, last);
+                                           : finished_run_events(run.stored.result, last);
                        }));
 }
 
@@ -124,8 +124,8 @@ void cancel_run(const Services& services, const Request& request, Responder resp
 }
 
 void list_runs(const Services& services, const Request& request, Responder responder) {
-  app::RunQuery query;
-  if (const auto status = request.text("status")) query.state = app::run_state_from_word(*status);
+  store::RunFilter query;
+  if (const auto status = request.text("status")) query.status = app::run_state_from_word(*status);
   if (const auto program = request.text("program")) {
     const auto path = TRY_OR_FAIL(responder, app::parse_file_path(*program));
     query.program = path.text();

@@ -144,7 +144,7 @@ DfqWriter::Fields DfqWriter::part_fields(const app::Measurement& m, const Commen
 }
 
 DfqWriter::Fields DfqWriter::characteristic_fields(const app::Measurement& m) {
-  const std::string nominal = m.has_nominal ? format_mm(m.nominal_size) : std::string();
+  const std::string nominal = m.has_nominal() ? format_mm(m.nominal_size) : std::string();
   const std::string_view class_name = m.table_class();
   const bool has_quantity =
       m.quantity && (m.quantity != gauging::Quantity::Diameter || !m.is_judged());
@@ -156,7 +156,7 @@ DfqWriter::Fields DfqWriter::characteristic_fields(const app::Measurement& m) {
   name = trim(name);
   Fields fields = {
       {k::kNumber, std::string(cut(name, 20))}, {k::kDescription, name}, {k::kType, "0"}};
-  if (m.has_nominal) fields.emplace_back(k::kNominal, nominal);
+  if (m.has_nominal()) fields.emplace_back(k::kNominal, nominal);
   if (split) {
     fields.emplace_back(k::kToleranceClass, split->first);
     fields.emplace_back(k::kToleranceGrade, split->second);

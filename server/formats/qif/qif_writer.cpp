@@ -120,7 +120,7 @@ std::uint32_t QifWriter::item_of(const app::Measurement& m) {
   const std::string definition = attributes(of_definition) + modifiers + tolerance(m);
   const std::string_view kind = characteristic_of(quantity);
   const std::string nominal =
-      m.has_nominal ? fmt::format("<TargetValue>{}</TargetValue>", format_mm(m.nominal_size)) : "";
+      m.has_nominal() ? fmt::format("<TargetValue>{}</TargetValue>", format_mm(m.nominal_size)) : "";
   const std::string name(m.characteristic.value_or(""));
   const auto [known, is_new] =
       items_.try_emplace(fmt::format("{}\n{}\n{}\n{}", kind, definition, nominal, name), 0);

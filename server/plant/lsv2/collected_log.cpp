@@ -309,8 +309,9 @@ Result<void> keep(app::FileService& files, const MachineOptions& machine, const 
   constexpr std::size_t kDrive = 5;  // TNC:\.
   auto kept = TRY(interpreter::ControlPath::parse(
       fmt::format("TNC:\\collected\\{}\\{}", machine.name, path.substr(kDrive))));
-  const auto there = wait_for_result<app::DiskFile>([&](auto done) { files.read(kept, done); });
-  if (there && there->bytes == bytes) return {};
+  const auto there =
+      wait_for_result<store::FileContent>([&](auto done) { files.read(kept, done); });
+  if (there && there->content == bytes) return {};
   if (!there && there.error().code != ErrorCode::FileUnknown) return there.error();
   TRY(wait_for_result<bool>(
       [&](auto done) { files.write(std::move(kept), bytes, machine.name, {}, done); }));

@@ -32,15 +32,15 @@ Value text(const std::optional<std::string_view>& text) {
 /// later metrics.
 std::vector<SparkplugMetric> metrics_of(const Measurement& m) {
   const Timestamp at = m.measured_at;
-  const Length deviation = m.has_nominal ? m.decisive() - m.nominal_size : Length();
+  const Length deviation = m.has_nominal() ? m.decisive() - m.nominal_size : Length();
   const Value none;
   return {
       {"id", {}, Type::String, at, app::measurement_id_text(m.id, m.origin)},
       {"measured_mm", {}, Type::Double, at, mm(m.measured)},
       {"verdict", {}, Type::String, at, text(word(m.result.verdict))},
-      {"deviation_um", {}, Type::Double, at, m.has_nominal ? um(deviation) : none},
+      {"deviation_um", {}, Type::Double, at, m.has_nominal() ? um(deviation) : none},
       {"excess_um", {}, Type::Double, at, m.is_judged() ? um(m.result.excess) : none},
-      {"nominal_mm", {}, Type::Double, at, m.has_nominal ? mm(m.nominal_size) : none},
+      {"nominal_mm", {}, Type::Double, at, m.has_nominal() ? mm(m.nominal_size) : none},
       {"upper_limit_mm", {}, Type::Double, at, m.has_upper_limit() ? mm(m.upper_limit()) : none},
       {"lower_limit_mm", {}, Type::Double, at, m.has_lower_limit() ? mm(m.lower_limit()) : none},
       {"tolerance_class", {}, Type::String, at, text(m.class_name)},

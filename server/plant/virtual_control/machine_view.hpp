@@ -55,7 +55,8 @@ class MachineView {
     using app::RunState;
     switch (run->state()) {
       case RunState::Queued:
-      case RunState::Running: return ProgramState::Started;
+      case RunState::Running:
+      case RunState::Cancelling: return ProgramState::Started;
       case RunState::Completed: return ProgramState::Finished;
       case RunState::Stopped: return ProgramState::Stopped;
       case RunState::Failed: return ProgramState::Failed;

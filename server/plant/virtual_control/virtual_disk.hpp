@@ -145,8 +145,8 @@ class VirtualDisk {
       return found->second.first->bytes;
     }
     auto file =
-        TRY(wait_for<app::DiskFile>([&](auto done) { files_.read(path, std::move(done)); }));
-    return std::move(file.bytes);
+        TRY(wait_for<store::FileContent>([&](auto done) { files_.read(path, std::move(done)); }));
+    return std::move(file.content);
   }
 
   /// Writes a new file or replaces one. @errors NoDirectory, NoSpace.
@@ -231,10 +231,10 @@ class VirtualDisk {
 
   /// Returns every file whose path begins with `prefix`, by key.
   ControlResult<std::map<std::string, DiskEntry>> files_below(std::string_view prefix) {
-    const auto stored = TRY(wait_for<std::vector<app::DiskFile>>(
+    const auto stored = TRY(wait_for<std::vector<store::FileEntry>>(
         [&](auto done) { files_.list(std::string(prefix), std::move(done)); }));
     std::map<std::string, DiskEntry> entries;
-    for (const app::DiskFile& file : stored) {
+    for (const store::FileEntry& file : stored) {
       entries[ascii_lower(file.path)] = {
           .name = file.path, .size = file.size, .modified_at = file.modified_at};
     }

@@ -65,7 +65,7 @@ class EventReader {
  private:
   void read_measurements(std::optional<Source> source, const RowNames& names) {
     store::MeasurementFilter filter;
-    filter.source = source ? std::optional(code_of<store::Source>(*source)) : std::nullopt;
+    filter.source = source;
     filter.history = true;
     EventPosition& position = page_.position;
     const auto end = stores_.measurements.last_id();
@@ -216,11 +216,8 @@ void EventService::read_stored(std::int64_t after, std::size_t limit,
         const store::EventsStore::Kept kept = stores.events.kept();
         StoredPage page{.newest = kept.newest, .gap = after + 1 < kept.oldest};
         for (store::Event& event : stores.events.after(after, limit)) {
-          page.events.push_back({.id = event.id,
-                                 .history = origins_.own(Counted::Event, event.id),
-                                 .type = std::move(event.type),
-                                 .payload = std::move(event.payload),
-                                 .at = Timestamp{event.created_at_ns}});
+          const auto history = origins_.own(Counted::Event, event.id);
+          page.events.push_back({std::move(event), history});
         }
         return page;
       },

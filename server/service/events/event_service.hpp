@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/thread.hpp"
+#include "db/store/documents_store.hpp"
 #include "record/measurement.hpp"
 #include "record/origins.hpp"
 #include "service/storage.hpp"
@@ -116,12 +117,8 @@ class EventService {
   }
 
   /// A single event that is in no other table.
-  struct Stored {
-    std::int64_t id = 0;
+  struct Stored : store::Event {
     std::string_view history{};  ///< in which it was given its id
-    std::string type{};
-    std::string payload{};  ///< JSON
-    Timestamp at{};
   };
   struct StoredPage {
     std::vector<Stored> events{};  ///< oldest first

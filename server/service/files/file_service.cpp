@@ -23,10 +23,6 @@ bool holds(const FileService::Precondition& precondition, const Stores& stores,
   return precondition(file ? std::optional<std::string_view>(file->content) : std::nullopt);
 }
 
-DiskFile disk_file(store::FileEntry entry) {
-  return {.path = std::move(entry.path), .size = entry.size, .modified_at = {entry.modified_at_ns}};
-}
-
 }  // namespace
 
 Result<interpreter::ControlPath> parse_file_path(std::string_view text) {
@@ -46,9 +42,9 @@ std::optional<interpreter::ControlFile> StoredDisk::find(
   if (!*found) return std::nullopt;
   store::FileContent& file = **found;
   return interpreter::ControlFile{
-      .path = interpreter::ControlPath::parse(file.entry.path).value(),
+      .path = interpreter::ControlPath::parse(file.path).value(),
       .bytes = std::make_shared<const std::string>(std::move(file.content)),
-      .revision = std::to_string(file.entry.revision),
+      .revision = std::to_string(file.revision),
       .source = interpreter::FileSource::Stored};
 }
 
@@ -108,14 +104,12 @@ void FileService::write(interpreter::ControlPath path, std::string_view bytes,
       std::move(done));
 }
 
-void FileService::read(interpreter::ControlPath path, Done<DiskFile> done) {
+void FileService::read(interpreter::ControlPath path, Done<store::FileContent> done) {
   database_.readers().submit(
-      [path = std::move(path)](const Stores& stores) -> Result<DiskFile> {
+      [path = std::move(path)](const Stores& stores) -> Result<store::FileContent> {
         auto found = stores.files.find(path.text());
         if (!found) return unknown(path);
-        DiskFile file = disk_file(std::move(found->entry));
-        file.bytes = std::move(found->content);
-        return file;
+        return *std::move(found);
       },
       std::move(done));
 }
@@ -142,15 +136,9 @@ void FileService::remove(interpreter::ControlPath path, std::optional<std::strin
       std::move(done));
 }
 
-void FileService::list(std::string prefix, Done<std::vector<DiskFile>> done) {
+void FileService::list(std::string prefix, Done<std::vector<store::FileEntry>> done) {
   database_.readers().submit(
-      [prefix = std::move(prefix)](const Stores& stores) {
-        std::vector<DiskFile> files;
-        for (store::FileEntry& entry : stores.files.list(prefix)) {
-          files.push_back(disk_file(std::move(entry)));
-        }
-        return files;
-      },
+      [prefix = std::move(prefix)](const Stores& stores) { return stores.files.list(prefix); },
       std::move(done));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/clock.hpp"
+#include "db/store/documents_store.hpp"
 #include "nc/program/control_disk.hpp"
 #include "service/storage.hpp"
 
@@ -45,14 +45,6 @@ class DraftDisk final : public interpreter::ControlDisk {
   const interpreter::ControlFile draft_;
 };
 
-/// A file of the control's disk.
-struct DiskFile {
-  std::string path;       ///< TNC:\..., as last written
-  std::int64_t size = 0;  ///< bytes
-  Timestamp modified_at;
-  std::string bytes{};  ///< empty in lists
-};
-
 /// The files of the control's disk. Nothing here blocks; `done` comes exactly once, on a storage
 /// thread or, when refused at once, on the caller's. Thread-safe.
 class FileService {
@@ -72,7 +64,7 @@ class FileService {
              std::optional<std::string> caller, Precondition precondition, Done<bool> done);
 
   /// @errors FileUnknown, StorageUnavailable.
-  void read(interpreter::ControlPath path, Done<DiskFile> done);
+  void read(interpreter::ControlPath path, Done<store::FileContent> done);
 
   /// @param users that are not documents: RunService::queued().
   /// @errors FileUnknown, DocumentInUse with the names, PreconditionFailed, StorageUnavailable,
@@ -81,7 +73,7 @@ class FileService {
               Precondition precondition, std::vector<std::string> users, Done<bool> done);
 
   /// Every file whose path begins so, by path.
-  void list(std::string prefix, Done<std::vector<DiskFile>> done);
+  void list(std::string prefix, Done<std::vector<store::FileEntry>> done);
 
  private:
   Database& database_;

@@ -20,19 +20,11 @@ iso286::NominalSizeRange range_of(std::int64_t over_nm, std::int64_t up_to_nm) {
   return {.over = Length::nanometres(over_nm), .up_to = Length::nanometres(up_to_nm)};
 }
 
-static_assert(code_of<store::Source>(Source::Simulation) == store::Source::Simulation);
-static_assert(code_of<store::Feature>(iso286::Feature::Shaft) == store::Feature::Shaft);
-static_assert(code_of<store::Basis>(LimitsBasis::None) == store::Basis::None);
-static_assert(code_of<store::Verdict>(gauging::Verdict::Unjudged) == store::Verdict::Unjudged);
-static_assert(code_of<store::Quantity>(gauging::Quantity::Deviation) == store::Quantity::Deviation);
-static_assert(code_of<store::Rule>(gauging::DecisionRule::Kind::Conformance) ==
-              store::Rule::Conformance);
-
 /// The rule of a row. @throws boost::system::system_error for numbers that no rule has.
 gauging::DecisionRule rule_of(const MeasurementRow& row) {
   if (row.rule == store::Rule::Simple) return {};
   const bool is_guarded = row.rule == store::Rule::GuardBand;
-  return api::make_rule({.kind = value_of<gauging::DecisionRule::Kind>(row.rule),
+  return api::make_rule({.kind = row.rule,
                          .standard_uncertainty = length_of(row.uncertainty_nm.value_or(0)),
                          .coverage_millionths = is_guarded ? row.coverage_factor : std::nullopt,
                          .probability_millionths = row.probability,
@@ -114,24 +106,20 @@ MeasurementRow to_store(const Measurement& m) {
   MeasurementRow row;
   static_cast<MeasurementFields&>(row) = m;
   row.id = m.id;
-  row.source = code_of<store::Source>(m.source);
   row.measured_at_ns = m.measured_at.nanoseconds;
   row.received_at_ns = m.received_at.nanoseconds;
-  if (m.quantity) row.quantity = code_of<store::Quantity>(*m.quantity);
   row.nominal_nm = m.nominal_size.count();
   row.tolerance_class = m.class_name;
-  row.feature = code_of<store::Feature>(m.feature);
   row.upper_deviation_nm = m.deviations.upper.count();
   row.lower_deviation_nm = m.deviations.lower.count();
   if (m.size_range) {
     row.size_over_nm = m.size_range->over.count();
     row.size_up_to_nm = m.size_range->up_to.count();
   }
-  row.basis = m.has_nominal ? code_of<store::Basis>(m.basis) : store::Basis::Bare;
   row.table_revision = m.revision_number;
   row.measured_nm = m.measured.count();
-  row.verdict = code_of<store::Verdict>(m.result.verdict);
-  row.rule = code_of<store::Rule>(m.rule.kind());
+  row.verdict = m.result.verdict;
+  row.rule = m.rule.kind();
   row.uncertainty_nm = count_of(m.standard_uncertainty);
   if (m.coverage_factor) row.coverage_factor = m.coverage_factor->millionths();
   if (m.conformance) {
@@ -156,20 +144,15 @@ Measurement from_store(const MeasurementRow& row, const RowNames& names) {
   m.origin_number = row.origin.value_or(0);
   m.origin = names.origin(m.origin_number, m.id);
   m.row = row.id;
-  m.source = value_of<Source>(row.source);
   m.measured_at = {row.measured_at_ns};
   m.received_at = {row.received_at_ns};
-  if (row.quantity) m.quantity = value_of<gauging::Quantity>(*row.quantity);
-  m.has_nominal = row.basis != store::Basis::Bare;
   m.nominal_size = Length::nanometres(row.nominal_nm);
   m.class_name = row.tolerance_class;
-  m.feature = value_of<iso286::Feature>(row.feature);
   m.deviations = {.upper = Length::nanometres(row.upper_deviation_nm),
                   .lower = Length::nanometres(row.lower_deviation_nm)};
   if (row.size_over_nm && row.size_up_to_nm) {
     m.size_range = range_of(*row.size_over_nm, *row.size_up_to_nm);
   }
-  m.basis = m.has_nominal ? value_of<LimitsBasis>(row.basis) : LimitsBasis::None;
   m.revision_number = row.table_revision;
   if (row.table_revision) m.table_revision = names.revision_id(*row.table_revision);
   m.measured = Length::nanometres(row.measured_nm);
@@ -180,7 +163,7 @@ Measurement from_store(const MeasurementRow& row, const RowNames& names) {
   m.rule = rule_of(row);
   m.corrected = length_of(row.corrected_nm);
   m.result = gauging::gauge(m.feature, m.upper_limit(), m.lower_limit(), m.decisive());
-  m.result.verdict = value_of<gauging::Verdict>(row.verdict);  // the excess is not stored
+  m.result.verdict = row.verdict;  // the excess is not stored
   if (row.conformance && row.guard_band) {
     m.conformance = {.probability = *row.conformance, .guard_band = *row.guard_band};
   }

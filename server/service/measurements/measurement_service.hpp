@@ -61,16 +61,6 @@ struct ReadValues {
 using VerdictTally = std::array<std::int64_t, gauging::kVerdicts>;
 using MeasurementGroup = store::SummaryGroup;
 
-/// Enumerations of the store count from 1, in the order of the service's.
-template <class Code, class Value>
-constexpr Code code_of(Value value) {
-  return static_cast<Code>(static_cast<int>(value) + 1);
-}
-template <class Value, class Code>
-constexpr Value value_of(Code code) {
-  return static_cast<Value>(static_cast<int>(code) - 1);
-}
-
 struct MeasurementServiceOptions {
   std::size_t most_waiting = 4096;  ///< requests; one more is StorageBusy
   bool commit_each = false;         ///< one commit for each request: the benchmark's peer

@@ -148,7 +148,7 @@ std::shared_ptr<ActiveRun> SharedRuns::follow(const StoredRun& run) {
                .options = {},
                .request = {}});
   auto made = std::make_shared<ActiveRun>(run.id, run.origin, std::move(order), run.created_at);
-  if (run.state == RunState::Running) made->started();
+  if (run.status != RunState::Queued) made->started();
   if (stopped_) {
     made->finished(no_longer());
   } else {
@@ -200,7 +200,7 @@ void SharedRuns::look(const Followed& followed, bool runs_any) {
   }
   for (const store::Run& run : seen->ended) {
     if (const auto active = of(run.id)) {
-      active->finished(FinishedRun{.state = run_state(run.status), .report = run.result});
+      active->finished(FinishedRun{.state = run.status, .report = run.result});
     }
     const std::lock_guard lock(mutex_);
     followed_.erase(run.id);

@@ -74,12 +74,12 @@ Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
   const store::Run row{.status = store::RunStatus::Queued,
                        .program = shared->program.text(),
                        .request = shared->request,
-                       .created_at_ns = clock_.now().nanoseconds,
+                       .created_at = clock_.now(),
                        .caller = shared->caller};
   std::shared_ptr<ActiveRun> active;
   const auto create = [&](Stores& stores) -> Result<Answer> {
     active = std::make_shared<ActiveRun>(stores.runs.create(row), origins_.own(), shared,
-                                         Timestamp{row.created_at_ns});
+                                         row.created_at);
     return accepted(*active);
   };
   const auto created = TRY(scope ? database_.writer().wait_once(to_store(*scope), create)

@@ -19,11 +19,6 @@ struct RunServiceOptions {
   bool keeps_newest = false;  ///< for a control that shows what its machine does
 };
 
-struct RunQuery {
-  std::optional<RunState> state;
-  std::optional<std::string> program;  ///< the whole path, without regard to case
-};
-
 /// Checks programs, runs them on its workers and stores the results. Thread-safe. Functions with
 /// `done` do not block: it is called exactly once, on a storage thread or, if refused at once, on
 /// the caller's.
@@ -128,18 +123,15 @@ class RunService {
   void find(std::int64_t id, Done<StoredRun> done);
   /// @errors RunUnknown; RunUnfinished while there is none yet.
   void trace(std::int64_t id, Done<TraceReader> done);
-  struct File {
-    std::string path;
-    std::string bytes;
-  };
   /// Reads a file by its path, or by its name (the first by path). @errors RunUnknown, FileUnknown.
-  void file(std::int64_t id, std::string name, Done<File> done);
+  void file(std::int64_t id, std::string name, Done<store::RunFile> done);
 
   struct Page {
     std::vector<StoredRun> runs;  ///< the newest first, without request and report
     std::optional<std::int64_t> next;
   };
-  void list(RunQuery query, std::optional<std::int64_t> after, std::size_t limit, Done<Page> done);
+  void list(store::RunFilter filter, std::optional<std::int64_t> after, std::size_t limit,
+            Done<Page> done);
 
  private:
   using Check = Result<Diagnostics> (*)(const interpreter::ControlPath&,

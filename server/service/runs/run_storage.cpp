@@ -80,7 +80,7 @@ Result<void> RunService::take_over(const store::Run& run) {
   if (order) {
     static_cast<void>(queue(std::make_shared<ActiveRun>(
         run.id, origin_of(run.id), std::make_shared<const RunOrder>(*std::move(order)),
-        Timestamp{run.created_at_ns})));
+        run.created_at)));
     return {};
   }
   static_cast<void>(
@@ -96,7 +96,7 @@ Result<FinishedRun> RunService::keep_failed(const store::Run& run, std::string w
       .program = run.program,
       .result = unstarted(RunStatus::Failed, MessageKind::Error, std::move(why), run.program),
       .seed = format_.seed(run.request),
-      .created_at = {run.created_at_ns},
+      .created_at = run.created_at,
       .finished_at = clock_.now()};
   return keep(report, empty_trace(format_.trace), run.caller);
 }
@@ -114,12 +114,10 @@ Result<FinishedRun> RunService::keep(const RunReport& report, std::string_view t
   std::vector<Measurement> measurements = measurements_of(report, caller);
   const auto store = [&](Stores& stores) -> Result<bool> {
     const std::int64_t now = report.finished_at.nanoseconds;
-    TRY(stores.runs.finish(report.id,
-                           {.status = run_status(finished.state),
-                            .result = finished.report,
-                            .trace = trace,
-                            .files = files},
-                           now));
+    TRY(stores.runs.finish(
+        report.id,
+        {.status = finished.state, .result = finished.report, .trace = trace, .files = files},
+        now));
     TRY(append(stores, measurements, origins_.own()));
     stores.events.append(kFinishedEvent, event, now);
     return true;
@@ -174,7 +172,7 @@ void RunService::find(std::int64_t id, Done<StoredRun> done) {
       [this, id](const Stores& stores) -> Result<StoredRun> {
         auto run = stores.runs.find(id);
         if (!run) return unknown_run(run_id_text(id, origin_of(id)));
-        return stored_run(*std::move(run), origin_of(id));
+        return StoredRun{*std::move(run), origin_of(id)};
       },
       std::move(done));
 }
@@ -183,7 +181,7 @@ void RunService::follow(std::int64_t id, Done<Followed> done) {
   if (auto run = active(id)) return done(Followed{std::move(run), {}});
   find(id, [this, id, own = own(id), done = std::move(done)](Result<StoredRun> run) {
     if (!run) return done(run.error());
-    if (!run->report.empty()) return done(Followed{nullptr, *std::move(run)});
+    if (!run->result.empty()) return done(Followed{nullptr, *std::move(run)});
     // Between its row and its place in the queue a run is nobody's for a moment.
     auto followed = own ? own : shared_ ? shared_->follow(*run) : this->own(id);
     if (followed) return done(Followed{std::move(followed), {}});
@@ -227,14 +225,14 @@ void RunService::trace(std::int64_t id, Done<TraceReader> done) {
       std::move(done));
 }
 
-void RunService::file(std::int64_t id, std::string name, Done<File> done) {
+void RunService::file(std::int64_t id, std::string name, Done<store::RunFile> done) {
   database_.readers().submit(
-      [this, id, name = std::move(name)](const Stores& stores) -> Result<File> {
+      [this, id, name = std::move(name)](const Stores& stores) -> Result<store::RunFile> {
         const bool is_path = name.find_first_of("/\\") != std::string::npos;
         const auto path = parse_file_path(name);
         const std::string_view last = is_path && path ? path->file_name() : std::string_view(name);
         if (auto file = stores.runs.file(id, last, is_path && path ? path->key() : "")) {
-          return File{.path = std::move(file->path), .bytes = std::move(file->content)};
+          return *std::move(file);
         }
         if (!stores.runs.find(id)) return unknown_run(run_id_text(id, origin_of(id)));
         return Error{ErrorCode::FileUnknown,
@@ -243,10 +241,8 @@ void RunService::file(std::int64_t id, std::string name, Done<File> done) {
       std::move(done));
 }
 
-void RunService::list(RunQuery query, std::optional<std::int64_t> after, std::size_t limit,
+void RunService::list(store::RunFilter filter, std::optional<std::int64_t> after, std::size_t limit,
                       Done<Page> done) {
-  store::RunFilter filter{.program = std::move(query.program)};
-  if (query.state) filter.status = run_status(*query.state);
   database_.readers().submit(
       [this, filter = std::move(filter), after, limit](const Stores& stores) {
         store::RunsStore::Page found = stores.runs.list(filter, after, limit);
@@ -255,7 +251,7 @@ void RunService::list(RunQuery query, std::optional<std::int64_t> after, std::si
           run.request.clear();
           run.result.clear();
           const std::string_view origin = origin_of(run.id);
-          page.runs.push_back(stored_run(std::move(run), origin));
+          page.runs.push_back({std::move(run), origin});
         }
         return page;
       },

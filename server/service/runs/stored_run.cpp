@@ -1,21 +1,6 @@
 #include "service/runs/stored_run.hpp"
 
-#include "db/store/runs_store.hpp"
-
 namespace fitgauge::app {
-namespace {
-
-constexpr std::array<std::string_view, 7> kWords = {
-    "queued", "running", "completed", "stopped", "failed", "limit_exceeded", "cancelled"};
-
-}  // namespace
-
-std::string_view word(RunState state) { return kWords[static_cast<std::size_t>(state)]; }
-
-std::optional<RunState> run_state_from_word(std::string_view text) {
-  return enum_of<RunState>(text, kWords);
-}
-
 RunState state_of(interpreter::RunStatus status) {
   switch (status) {
     case interpreter::RunStatus::Completed: return RunState::Completed;
@@ -25,32 +10,6 @@ RunState state_of(interpreter::RunStatus status) {
     case interpreter::RunStatus::Failed: break;
   }
   return RunState::Failed;
-}
-
-// The store counts from 1, in the same order.
-static_assert(static_cast<int>(RunState::Cancelled) + 1 ==
-              static_cast<int>(store::RunStatus::Cancelled));
-
-store::RunStatus run_status(RunState state) {
-  return static_cast<store::RunStatus>(static_cast<int>(state) + 1);
-}
-
-RunState run_state(store::RunStatus status) {
-  if (status == store::RunStatus::Cancelling) return RunState::Running;
-  return static_cast<RunState>(static_cast<int>(status) - 1);
-}
-
-StoredRun stored_run(store::Run run, std::string_view origin) {
-  StoredRun stored{.id = run.id,
-                   .origin = origin,
-                   .state = run_state(run.status),
-                   .program = std::move(run.program),
-                   .request = std::move(run.request),
-                   .report = std::move(run.result),
-                   .created_at = {run.created_at_ns},
-                   .finished_at = {}};
-  if (run.finished_at_ns) stored.finished_at = Timestamp{*run.finished_at_ns};
-  return stored;
 }
 
 TraceWriter::TraceWriter(const TraceFormat& format, std::vector<machine::Axis> axes)

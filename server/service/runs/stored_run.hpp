@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/gzip.hpp"
+#include "db/store/runs_store.hpp"
 #include "nc/machine/control.hpp"
 #include "nc/machine/machine_setup.hpp"
 #include "nc/machine/scripted_machine.hpp"
@@ -36,21 +37,14 @@ struct RunOrder {
   bool names(const interpreter::ControlPath& file) const;
 };
 
-enum class RunState : std::uint8_t {
-  Queued,
-  Running,
-  Completed,
-  Stopped,
-  Failed,
-  LimitExceeded,
-  Cancelled
-};
+using RunState = store::RunStatus;
+inline constexpr std::size_t kRunStates =
+    7;  ///< without Cancelling, which the outside sees as running
 
-inline constexpr std::size_t kRunStates = 7;
-
-/// `queued`, `running`, `completed`, ...
-std::string_view word(RunState state);
-std::optional<RunState> run_state_from_word(std::string_view text);
+/// Reads `queued`, `running`, `completed`, ...
+constexpr std::optional<RunState> run_state_from_word(std::string_view text) {
+  return enum_of<RunState>(text, store::kRunWords);
+}
 RunState state_of(interpreter::RunStatus status);
 
 /// A run that is over.
@@ -116,24 +110,12 @@ struct RunFormat {
   std::function<std::string(const RunReport&)> event;
 };
 
-/// A run as the store has it.
-struct StoredRun {
-  std::int64_t id = 0;
-  std::string_view origin;  ///< of the data folder
-  RunState state = RunState::Queued;
-  std::string program;
-  std::string request;
-  std::string report;  ///< empty until it is over
-  Timestamp created_at;
-  std::optional<Timestamp> finished_at;
+/// A run as the store has it; its result is the report.
+struct StoredRun : store::Run {
+  std::string_view origin{};  ///< of the data folder
 
   std::string id_text() const { return run_id_text(id, origin); }
 };
-
-store::RunStatus run_status(RunState state);
-RunState run_state(store::RunStatus status);
-/// @param origin of the data folder
-StoredRun stored_run(store::Run run, std::string_view origin);
 
 /// Writes the trace of a run, packed at once: the text of a long trace has 50 MB, packed a
 /// twentieth of it.

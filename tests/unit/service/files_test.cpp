@@ -16,16 +16,17 @@ TEST_CASE("a file is written, replaced, read and removed, whatever the case of i
         .value();
   };
   const auto read = [&](std::string_view name) {
-    return wait_for<DiskFile>([&](auto done) { files.read(path(name), std::move(done)); });
+    return wait_for<store::FileContent>(
+        [&](auto done) { files.read(path(name), std::move(done)); });
   };
   const auto first = write("TNC:\\Dir\\File.H", "one");
   const auto second = write("TNC:\\dir\\file.h", std::string_view("\0\xFF", 2));
   CHECK(first);
   CHECK_FALSE(second);
-  CHECK(read("TNC:\\DIR\\FILE.H")->bytes == std::string("\0\xFF", 2));
+  CHECK(read("TNC:\\DIR\\FILE.H")->content == std::string("\0\xFF", 2));
 
   write("TNC:\\other\\file.h", "");
-  const auto listed = wait_for<std::vector<DiskFile>>(
+  const auto listed = wait_for<std::vector<store::FileEntry>>(
       [&](auto done) { files.list("TNC:\\dir\\", std::move(done)); });
   REQUIRE(listed->size() == 1);
   CHECK((*listed)[0].size == 2);

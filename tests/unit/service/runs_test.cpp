@@ -32,16 +32,16 @@ TEST_CASE("a run leaves its report, its trace and its files") {
   const auto stored =
       wait_for<StoredRun>([&](auto done) { service->runs().find(report.id, std::move(done)); });
   REQUIRE(stored.has_value());
-  CHECK(stored->state == RunState::Completed);
+  CHECK(stored->status == RunState::Completed);
   CHECK(stored->program == "TNC:\\main.h");
   CHECK(stored->request == "{}");
   auto trace =
       wait_for<TraceReader>([&](auto done) { service->runs().trace(report.id, std::move(done)); });
   CHECK(trace->next().value() == "a move, the end");
   CHECK(trace->next().value().empty());
-  const auto file = wait_for<RunService::File>(
+  const auto file = wait_for<store::RunFile>(
       [&](auto done) { service->runs().file(report.id, "OUT.TXT", std::move(done)); });
-  CHECK(file->bytes.starts_with("Q1 IS  5"));
+  CHECK(file->content.starts_with("Q1 IS  5"));
   for (const std::int64_t unknown : {report.id + 1, std::int64_t{0}}) {
     const auto none =
         wait_for<StoredRun>([&](auto done) { service->runs().find(unknown, std::move(done)); });
@@ -246,7 +246,7 @@ TEST_CASE("a run whose end is stored is over for everybody, at once") {
     const auto is_stored = [&] {
       return !wait_for<StoredRun>([&](auto done) {
                 service->runs().find(run->id(), std::move(done));
-              })->report.empty();
+              })->result.empty();
     };
     while (!is_stored()) std::this_thread::yield();
     REQUIRE(service->runs().active(run->id()) == nullptr);
@@ -289,20 +289,21 @@ TEST_CASE("runs are listed the newest first, by state and program") {
   service.program("Q1 = 1");
   std::array<std::int64_t, 3> ids{};
   for (std::int64_t& id : ids) id = service.run(Service::order()).id;
-  const auto list = [&](RunQuery query, std::optional<std::int64_t> after, std::size_t limit) {
+  const auto list = [&](store::RunFilter query, std::optional<std::int64_t> after,
+                        std::size_t limit) {
     return wait_for<RunService::Page>([&](auto done) {
              service->runs().list(std::move(query), after, limit, std::move(done));
            })
         .value();
   };
-  const auto page = list({.state = RunState::Completed, .program = "tnc:\\MAIN.h"}, {}, 2);
+  const auto page = list({.status = RunState::Completed, .program = "tnc:\\MAIN.h"}, {}, 2);
   REQUIRE(page.runs.size() == 2);
   CHECK(page.runs[0].id == ids[2]);
   const auto rest = list({}, page.next, 2);
   REQUIRE(rest.runs.size() == 1);
   CHECK(rest.runs[0].id == ids[0]);
   CHECK_FALSE(rest.next);
-  CHECK(list({.state = RunState::Failed, .program = {}}, {}, 2).runs.empty());
+  CHECK(list({.status = RunState::Failed, .program = {}}, {}, 2).runs.empty());
 }
 
 }  // namespace

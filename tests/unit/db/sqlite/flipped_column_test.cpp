@@ -89,7 +89,7 @@ struct Everything : Fixture {
                           sha256("leaf"));
     stores.events.append("table_changed", "{}", 1);
     const std::int64_t run = stores.runs.create(
-        {.program = "TNC:\\a.h", .request = "{}", .created_at_ns = 1, .caller = "press-3"});
+        {.program = "TNC:\\a.h", .request = "{}", .created_at = {1}, .caller = "press-3"});
     const RunFile file{"TNC:\\LOG.TXT", "log"};
     REQUIRE(stores.runs.start(run).has_value());
     REQUIRE(stores.runs

@@ -78,7 +78,7 @@ TEST_CASE("control files keep their case, compare without it, and keep what they
     const auto found = files.find("nc_Prog\\8255\\8255.h");
     REQUIRE(found.has_value());
     CHECK(found->content == binary);
-    CHECK(found->entry.path == "NC_PROG\\8255\\8255.H");
+    CHECK(found->path == "NC_PROG\\8255\\8255.H");
     CHECK(files.find("nc_prog\\empty.h")->content.empty());
     CHECK_FALSE(files.find("nc_prog").has_value());
 
@@ -142,7 +142,7 @@ TEST_CASE("a run goes from queued to finished and leaves files and a trace") {
   with_stores(fixture, [](Stores& stores) {
     RunsStore& runs = stores.runs;
     const std::int64_t id = runs.create(
-        {.program = "TNC:\\a.h", .request = "{}", .created_at_ns = 1, .caller = "press-3"});
+        {.program = "TNC:\\a.h", .request = "{}", .created_at = {1}, .caller = "press-3"});
     REQUIRE(runs.start(id).has_value());
     CHECK(runs.find(id)->status == RunStatus::Running);
     CHECK(runs.start(id + 1).error().code == ErrorCode::RunUnknown);
@@ -157,7 +157,7 @@ TEST_CASE("a run goes from queued to finished and leaves files and a trace") {
     const auto run = runs.find(id);
     CHECK(run->status == RunStatus::Failed);
     CHECK(run->result == "{\"blocks\":3}");
-    CHECK(run->finished_at_ns == 9);
+    CHECK(run->finished_at == Timestamp{9});
     CHECK(run->caller == "press-3");
     CHECK(runs.trace(id) == "moves");
     CHECK(runs.file(id, "tchpr421.txt")->content == "log");

@@ -37,7 +37,7 @@ std::string expected_summary(const Sample& sample, const MeasurementFilter& filt
 }
 
 std::int64_t count_of(const SummaryGroup& group, Verdict verdict) {
-  return group.verdicts[static_cast<std::size_t>(verdict) - 1];
+  return group.verdicts[static_cast<std::size_t>(verdict)];
 }
 
 std::string found_summary(Fixture& fixture, const MeasurementFilter& filter, TextField group_by) {

@@ -129,7 +129,7 @@ struct Shop : Fixture {
       if (!sample.matches(i, all)) continue;
       Group& group = groups[row.*kTextColumns[index_of(group_by)].text];
       group.statistics.add(row.corrected_nm.value_or(row.measured_nm));
-      ++group.verdicts.at(static_cast<std::size_t>(row.verdict) - 1);
+      ++group.verdicts.at(static_cast<std::size_t>(row.verdict));
     }
     if (groups.size() > 10'000) return "too many";
     std::string text;
