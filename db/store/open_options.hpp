@@ -57,7 +57,7 @@ struct OpenOptions {
 
   bool commit_each = false;  ///< one commit for each job: the benchmark's peer
   std::size_t queue_limit =
-      1024;              ///< write jobs and read jobs waiting, each; one more is StorageBusy
+      4096;              ///< write jobs and read jobs waiting, each; one more is StorageBusy
   unsigned readers = 2;  ///< reader threads, each with its own connection
 
   int checkpoint_pages = 4000;  ///< of the log: from here on it is checkpointed

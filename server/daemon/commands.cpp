@@ -14,7 +14,7 @@ constexpr long kHealthSeconds = 3;
 
 Result<std::unique_ptr<app::Application>> open_application(const Config& config, bool attach) {
   app::ApplicationOptions options = application_options(config);
-  options.attach = attach;
+  if (attach) options.access = store::Access::Attach;
   return app::Application::open(options, kClock);
 }
 

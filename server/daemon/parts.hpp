@@ -265,13 +265,15 @@ inline app::ApplicationOptions application_options(const Config& config) {
   app::ApplicationOptions options;
   options.directory = config.data;
   options.address = config.database;
-  options.durable = config.durability != "off";
+  if (config.durability == "off") options.synchronous = store::Synchronous::Off;
   options.commit_each = config.durability == "each";
-  options.write_queue = static_cast<std::size_t>(config.write_queue);
+  options.queue_limit = static_cast<std::size_t>(config.write_queue);
   options.readers = static_cast<unsigned>(config.reader_threads);
   options.run_workers = static_cast<unsigned>(config.run_workers);
-  options.idempotency_days = config.idempotency_days;
-  options.run_retention_days = config.run_retention_days;
+  options.idempotency_retention = std::chrono::days(config.idempotency_days);
+  constexpr std::int64_t kForEver = 100'000;
+  options.run_retention =
+      std::chrono::days(config.run_retention_days == 0 ? kForEver : config.run_retention_days);
   options.event_retention = config.event_retention;
   options.keeps_newest_run = !config.control_listen.empty();
   options.origin_name = config.origin_name;

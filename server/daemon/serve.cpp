@@ -106,10 +106,11 @@ void end_in_time(const std::stop_token& stop) {
   _exit(1);
 }
 
-void log_health(std::string_view state, const std::string& reason) {
-  const bool well = state == "ok" || state == "checking";
+void log_health(const store::Health& health) {
+  const auto& [state, reason] = health;
+  const bool well = state == store::HealthState::Ok || state == store::HealthState::Checking;
   const std::string detail =
-      reason.empty() ? std::string(state) : fmt::format("{}: {}", state, reason);
+      reason.empty() ? std::string(word(state)) : fmt::format("{}: {}", word(state), reason);
   well ? log_info("storage_health", detail) : log_error("storage_health", detail);
 }
 
@@ -133,7 +134,7 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
   options.steady_time = [&clock] { return clock.steady(); };
   options.around_outcomes = answer_together;
   options.health_changed = log_health;
-  options.job_threw = [](const std::string& what) { log_error("storage_job_threw", what); };
+  options.job_threw = [](const Error& bug) { log_error("storage_job_threw", bug.message); };
   options.log_told = [](std::string_view event, const std::string& detail) {
     const bool is_news = event == "log_head" || event == "purged" || event.starts_with("key_");
     is_news ? log_info(event, detail) : log_warning(event, detail);

@@ -9,38 +9,8 @@
 namespace fitgauge::app {
 namespace {
 
-constexpr std::int64_t kForEverDays = 100'000;
 constexpr std::chrono::seconds kPatienceForCheckpoint{5};
 constexpr std::chrono::milliseconds kBetweenGlances{50};
-
-store::OpenOptions options_of_store(const ApplicationOptions& options) {
-  store::OpenOptions open;
-  open.directory = options.directory;
-  open.address = options.address;
-  open.access = options.attach ? store::Access::Attach : store::Access::Serve;
-  open.synchronous = options.durable ? store::Synchronous::Full : store::Synchronous::Off;
-  open.commit_each = options.commit_each;
-  open.queue_limit = options.write_queue;
-  open.readers = options.readers;
-  open.idempotency_retention = std::chrono::days(options.idempotency_days);
-  open.run_retention = std::chrono::days(
-      options.run_retention_days == 0 ? kForEverDays : options.run_retention_days);
-  open.event_retention = options.event_retention;
-  open.around_outcomes = options.around_outcomes;
-  if (options.health_changed) {
-    open.health_changed = [tell = options.health_changed](const store::Health& health) {
-      tell(word(health.state), health.reason);
-    };
-  }
-  open.steady_time = options.steady_time;
-  if (options.log_told) {
-    open.purged = [tell = options.log_told](const std::string& what) { tell("purged", what); };
-  }
-  if (options.job_threw) {
-    open.job_threw = [tell = options.job_threw](const Error& bug) { tell(bug.message); };
-  }
-  return open;
-}
 
 /// Whether limits of a designation of another standard match it, if this build has that edition.
 bool has_limits_of_its_standard(const Measurement& m) {
@@ -165,23 +135,30 @@ Application::~Application() {
 Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions& options,
                                                        const Clock& clock) {
   std::unique_ptr<Application> app(new Application);
-  store::OpenOptions open_options = options_of_store(options);
+  store::OpenOptions open_options = options;
+  const bool attach = options.access == store::Access::Attach;
+  const bool is_on_server = !options.address.empty();
+  if (options.log_told) {
+    open_options.purged = [tell = options.log_told](const std::string& what) {
+      tell("purged", what);
+    };
+  }
   open_options.committed = [app = app.get()] {
     app->committed_.raise();
     if (app->stage_ == Stage::Open) app->log_->committed();
   };
-  if (!options.attach) {
+  if (!attach) {
     open_options.is_open = [app = app.get()] { return app->stage_ == Stage::Open; };
     open_options.check_measurement = [app = app.get()](const MeasurementRow& row) {
       return app->stage_ == Stage::Open ? app->check_leaf(row) : std::nullopt;
     };
   }
   app->directory_ = options.directory;
-  app->is_on_server_ = !options.address.empty();
+  app->is_on_server_ = is_on_server;
   open_options.names_changed = [app = app.get()](const Stores& stores) {
     return app->stage_ == Stage::Open && app->take_names(stores);
   };
-  if (!options.address.empty() && !options.attach) {
+  if (is_on_server && !attach) {
     auto held = TRY(store::DirectoryLock::acquire(options.directory));
     app->folder_ = std::make_unique<store::DirectoryLock>(std::move(held));
   }
@@ -189,12 +166,12 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
       TRY(options.address.empty() ? store::sqlite::open_database(open_options, clock)
                                   : store::postgres::open_database(open_options, clock));
   app->tables_ = TRY(TableCatalog::open(*app->database_, clock, options.has_centre));
-  if (!options.attach) TRY(app->tables_->number_standards());
+  if (!attach) TRY(app->tables_->number_standards());
   app->log_ = TRY(LogService::open(*app->database_, *app->tables_, clock,
                                    {.directory = options.directory,
                                     .name = options.origin_name,
-                                    .shares = !options.address.empty(),
-                                    .attach = options.attach,
+                                    .shares = is_on_server,
+                                    .attach = attach,
                                     .ask_centre = options.ask_centre,
                                     .tell = options.log_told}));
   const Origins& origins = app->log_->origins();
@@ -208,21 +185,21 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
   app->keys_ = TRY(KeyService::open(*app->database_, clock, options.log_told));
   app->measurements_ = std::make_unique<MeasurementService>(
       *app->database_, *app->tables_, origins,
-      MeasurementServiceOptions{.most_waiting = options.write_queue,
+      MeasurementServiceOptions{.most_waiting = options.queue_limit,
                                 .commit_each = options.commit_each});
   app->files_ = std::make_unique<FileService>(*app->database_, clock);
   app->documents_ = std::make_unique<DocumentService>(*app->database_, clock, options.has_centre);
-  if (!options.attach) {
-    app->jobs_ = std::make_unique<Jobs>(options.write_queue);
+  if (!attach) {
+    app->jobs_ = std::make_unique<Jobs>(options.queue_limit);
     app->runs_ = std::make_unique<RunService>(
         *app->database_, *app->tables_, clock, origins, app->jobs_->orders,
         RunServiceOptions{.workers = options.run_workers,
-                          .shares = !options.address.empty(),
+                          .shares = is_on_server,
                           .keeps_newest = options.keeps_newest_run});
   }
   app->events_ = std::make_unique<EventService>(*app->database_, *app->tables_, origins,
                                                 app->committed_, options.event_retention);
-  if (!options.attach) app->log_->start();
+  if (!attach) app->log_->start();
   app->stage_ = Stage::Open;
   return app;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <filesystem>
-
+#include "db/store/open_options.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/events/event_service.hpp"
 #include "service/jobs.hpp"
@@ -13,33 +12,16 @@
 
 namespace fitgauge::app {
 
-struct ApplicationOptions {
-  std::filesystem::path directory;  ///< of the database; with a server, only of the log's key
-  std::string address{};            ///< `postgresql://…`: a server that several daemons share
-  bool attach = false;              ///< next to a running daemon: nothing is created or upgraded
-  bool durable = true;              ///< false only as a test's negative control
-  bool commit_each = false;         ///< one commit for each write: the benchmark's peer
-  std::size_t write_queue = 4096;
-  unsigned readers = 2;
+/// Options of the database, and of the services on it. `directory` has the log's key also if the
+/// database is on a server; check_measurement, is_open, names_changed and committed are set here.
+struct ApplicationOptions : store::OpenOptions {
   unsigned run_workers = 2;
   bool keeps_newest_run = false;  ///< see RunServiceOptions
-  std::int64_t idempotency_days = 30;
-  std::int64_t run_retention_days = 90;  ///< 0: for ever
-  std::int64_t event_retention = 100'000;
   /// Asks the centre for the state of this log; see LogOptions.
   std::function<std::optional<AtCentre>(std::string_view digits)> ask_centre{};
   bool has_centre = false;              ///< documents of a centre can only be changed there
   std::string origin_name = "station";  ///< of the log; see LogOptions
-  /// Wraps, on the writer thread, the calls of every `done` after a commit; must call its argument.
-  std::function<void(const std::function<void()>&)> around_outcomes{};
-  /// Time for the expiry of runs and idempotency keys; without it, the clock itself.
-  std::function<SteadyTime()> steady_time{};
-  /// The storage's health has changed: `ok`, `checking`, `writes_failing` or `damaged`, and why.
-  /// Called on a storage thread; must not block.
-  std::function<void(std::string_view state, const std::string& reason)> health_changed{};
-  /// A storage job threw, which is a bug. As above.
-  std::function<void(const std::string& what)> job_threw{};
-  /// Events of the log: a name and a sentence.
+  /// Events of the log, and what the storage has purged: a name and a sentence.
   std::function<void(std::string_view event, const std::string& detail)> log_told{};
 };
 

@@ -155,10 +155,10 @@ bool Node::start() {
   options.has_centre = !centre_.empty();
   options.steady_time = [clock = &up->clock] { return clock->steady(); };
   options.log_told = tell;
-  options.health_changed = [tell](std::string_view state, const std::string& reason) {
-    tell(state, reason);
+  options.health_changed = [tell](const store::Health& health) {
+    tell(word(health.state), health.reason);
   };
-  options.job_threw = [tell](const std::string& what) { tell("job_threw", what); };
+  options.job_threw = [tell](const Error& bug) { tell("job_threw", bug.message); };
   const forwarder::CentreOptions there{.url = "http://" + centre_};
   if (!centre_.empty()) {
     options.ask_centre = [there](std::string_view digits) -> std::optional<app::AtCentre> {

@@ -71,7 +71,7 @@ TEST_CASE("a folder that knows changes which the database lacks begins a branch"
   const auto open = [&] {
     ApplicationOptions options;
     options.directory = folder.path();
-    options.durable = false;
+    options.synchronous = store::Synchronous::Off;
     return Application::open(options, clock).value();
   };
   const auto change = [](Application& app, const std::string& text) {

@@ -223,7 +223,7 @@ TEST_CASE("a request that hits a bug is refused, those stored with it are not") 
 
 TEST_CASE("one request more than may wait is refused at once") {
   ApplicationOptions options;
-  options.write_queue = 4;
+  options.queue_limit = 4;
   Service service(options);
   std::promise<void> release;
   std::promise<void> held;

@@ -66,7 +66,7 @@ class Service {
  public:
   explicit Service(ApplicationOptions options = {}) {
     options.directory = folder_.path();
-    options.durable = false;
+    options.synchronous = store::Synchronous::Off;
     options.run_workers = 1;
     app_ = Application::open(options, clock_).value();
     const auto opened = app_->runs().open(

@@ -19,7 +19,7 @@ class Service {
     std::filesystem::create_directories(folder_);
     app::ApplicationOptions options;
     options.directory = folder_;
-    options.durable = false;
+    options.synchronous = store::Synchronous::Off;
     app_ = app::Application::open(options, clock_).value();
   }
   Service(const Service&) = delete;

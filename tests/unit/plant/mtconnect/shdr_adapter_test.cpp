@@ -31,7 +31,7 @@ TEST_CASE("what fails while an agent is taken in is not the last agent that is t
     const SystemClock clock;
     app::ApplicationOptions settings;
     settings.directory = folder;
-    settings.durable = false;
+    settings.synchronous = store::Synchronous::Off;
     const auto app = app::Application::open(settings, clock).value();
     std::promise<void> refused;
     int refusals = 0;
