@@ -64,9 +64,7 @@ Result<std::optional<StoredAnswer>> IdempotencyStore::find(const IdempotentReque
 
 Result<StoredAnswer> IdempotencyStore::once(const IdempotentRequest& request,
                                             const std::function<Result<StoredAnswer>()>& work) {
-  Result<std::optional<StoredAnswer>> kept = find(request);
-  if (!kept) return kept.error();
-  if (*kept) return **std::move(kept);
+  if (auto kept = TRY(find(request))) return *std::move(kept);
   Result<StoredAnswer> answer = work();
   if (!answer || answer->status < 200 || answer->status > 299) return answer;
   const std::int64_t expires_at =

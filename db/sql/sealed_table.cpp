@@ -54,19 +54,9 @@ constexpr std::array kTables = {
     kForwarding,    kReceived,       kTableRevisionIds, kNotes,
     kNoteOrigins};
 
-std::vector<std::string_view> names_of(std::string_view columns) {
-  std::vector<std::string_view> names;
-  while (!columns.empty()) {
-    const std::size_t end = std::min(columns.find(", "), columns.size());
-    names.push_back(columns.substr(0, end));
-    columns.remove_prefix(std::min(end + 2, columns.size()));
-  }
-  return names;
-}
-
 std::string insert_into(const SealedTable& table, std::string_view verb, bool is_sealed) {
   std::string values = "?1";
-  for (std::size_t i = 2; i <= names_of(table.columns).size(); ++i) {
+  for (std::size_t i = 2; i <= split(table.columns, ',').size(); ++i) {
     values += fmt::format(", ?{}", i);
   }
   return is_sealed
@@ -84,8 +74,8 @@ std::string SealedTable::insert(const sql::Connection& connection) const {
 std::string SealedTable::replace(const sql::Connection& connection) const {
   if (connection.dialect().has_seals) return insert_into(*this, "INSERT OR REPLACE", true);
   std::string changes;
-  for (const std::string_view column : names_of(columns)) {
-    changes += fmt::format("{}{} = excluded.{}", changes.empty() ? "" : ", ", column, column);
+  for (const std::string_view column : split(columns, ',')) {
+    changes += fmt::format("{0}{1} = excluded.{1}", changes.empty() ? "" : ", ", trim(column));
   }
   return fmt::format("{} ON CONFLICT ({}) DO UPDATE SET {}", insert(connection), unique, changes);
 }
@@ -100,8 +90,8 @@ std::string SealedTable::is_sound(const sql::Connection& connection, std::string
   if (!connection.dialect().has_seals) return "1";
   std::string prefixed;
   const std::string prefix = alias.empty() ? std::string() : fmt::format("{}.", alias);
-  for (const std::string_view column : names_of(columns)) {
-    prefixed += fmt::format("{}{}{}", prefixed.empty() ? "" : ", ", prefix, column);
+  for (const std::string_view column : split(columns, ',')) {
+    prefixed += fmt::format("{}{}{}", prefixed.empty() ? "" : ", ", prefix, trim(column));
   }
   return fmt::format("{}seal IS row_digest({})", prefix, prefixed);
 }

@@ -161,12 +161,10 @@ class FileDatabase final : public Database {
 Result<std::unique_ptr<Database>> open_database(const OpenOptions& options, const Clock& clock) {
   std::optional<DirectoryLock> lock;
   if (options.access == Access::Serve) {
-    Result<DirectoryLock> held = DirectoryLock::acquire(options.directory);
-    if (!held) return held.error();
-    lock.emplace(*std::move(held));
+    auto held = TRY(DirectoryLock::acquire(options.directory));
+    lock.emplace(std::move(held));
   }
-  const Result<void> prepared = prepare_file(options, migrations(), clock.now().nanoseconds);
-  if (!prepared) return prepared.error();
+  TRY(prepare_file(options, migrations(), clock.now().nanoseconds));
   try {
     return std::unique_ptr<Database>(
         std::make_unique<FileDatabase>(std::move(lock), options, clock));

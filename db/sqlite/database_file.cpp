@@ -49,8 +49,8 @@ Error unavailable(std::string message) {
 
 /// Gives a finished file its name, durably. The name is free: nothing is replaced.
 Result<void> publish(const fs::path& finished, const fs::path& name) {
-  if (Result<void> synced = sync_file(finished); !synced) return synced;
-  if (Result<void> named = rename_to_new(finished, name); !named) return named;
+  TRY(sync_file(finished));
+  TRY(rename_to_new(finished, name));
   return sync_file(name);
 }
 
@@ -72,7 +72,7 @@ Result<void> create_file(const fs::path& file, std::span<const sqlite::Migration
   }
   const fs::path draft = with_suffix(file, ".new");
   remove_leftover(draft);
-  if (Result<void> reserved = reserve_name(draft); !reserved) return reserved;
+  TRY(reserve_name(draft));
   {
     sqlite::Connection connection(draft, sqlite::Mode::Create);
     sqlite::migrate(connection, known, now_ns);
@@ -84,7 +84,7 @@ Result<void> upgrade_file(const fs::path& file, std::span<const sqlite::Migratio
                           int version, std::int64_t now_ns) {
   const fs::path backup = with_suffix(file, fmt::format(".schema-{}.backup", version));
   remove_leftover(backup);
-  if (Result<void> copied = copy_database(file, backup); !copied) return copied;
+  TRY(copy_database(file, backup));
   sqlite::Connection connection(file, sqlite::Mode::Write);
   sqlite::migrate(connection, known, now_ns);
   return {};
@@ -149,7 +149,7 @@ Result<int> checked_version(const OpenOptions& options, const fs::path& file,
       if (foreign->code == ErrorCode::DatabaseNewer) return *foreign;
     }
     if (options.access == Access::Serve && fs::file_size(file) <= options.check_at_open_limit) {
-      if (const Result<void> sound = check_file(file); !sound) return sound.error();
+      TRY(check_file(file));
     }
     if (foreign) return *foreign;
     if (options.access == Access::Serve) TRY(has_whole_log(connection, file));
@@ -169,15 +169,14 @@ Result<void> prepare_or_throw(const OpenOptions& options, std::span<const sqlite
     if (options.access == Access::Serve) return create_file(file, known, now_ns);
     return unavailable(fmt::format("{} does not exist: start fitgauged once", file.string()));
   }
-  if (Result<void> ours = inspect_file(file, options.access); !ours) return ours;
+  TRY(inspect_file(file, options.access));
   if (options.access == Access::Serve) {
     close_to_others(file);
     roll_back_interrupted_change(file);
   }
-  const Result<int> version = checked_version(options, file, known);
-  if (!version) return version.error();
-  if (*version == static_cast<int>(known.size())) return {};
-  if (options.access == Access::Serve) return upgrade_file(file, known, *version, now_ns);
+  const int version = TRY(checked_version(options, file, known));
+  if (version == static_cast<int>(known.size())) return {};
+  if (options.access == Access::Serve) return upgrade_file(file, known, version, now_ns);
   return unavailable(
       fmt::format("{} has an older schema: start fitgauged once to upgrade it", file.string()));
 }
@@ -207,7 +206,7 @@ Result<void> copy_database(const fs::path& source, const fs::path& target) {
   };
   try {
     // Only the service's user and group may read it, whatever the umask.
-    if (Result<void> reserved = reserve_name(draft); !reserved) return reserved;
+    TRY(reserve_name(draft));
     sqlite::Connection from(source, sqlite::Mode::Read);
     sqlite::Connection to(draft, sqlite::Mode::Create);
     SQLite::Backup copy(to.database(), from.database());

@@ -53,10 +53,7 @@ class EventReader {
     const auto stored = stores_.events.after(page_.position.stored, kRowsAPage);
     for (const store::Event& event : stored) {
       page_.position.stored = event.id;
-      put({.type = event.type,
-           .id = page_.position,
-           .history = history_,
-           .payload = event.payload});
+      put(event.type, nullptr, event.payload);
     }
     page_.more = page_.more || stored.size() == kRowsAPage;
     return std::move(page_);
@@ -85,21 +82,14 @@ class EventReader {
     const bool rejected = measurement.result.verdict == gauging::Verdict::Reject;
     position.measurement = measurement.row;
     position.reject_is_due = rejected;
-    if (!told) {
-      put({.type = "measurement.recorded",
-           .id = position,
-           .history = history_,
-           .measurement = &measurement});
-    }
+    if (!told) put("measurement.recorded", &measurement);
     position.reject_is_due = false;
-    if (!rejected) return;
-    put({.type = "verdict.reject",
-         .id = position,
-         .history = history_,
-         .measurement = &measurement});
+    if (rejected) put("verdict.reject", &measurement);
   }
 
-  void put(const Event& event) { write_(page_.text, event); }
+  void put(std::string_view type, const Measurement* measurement, std::string_view payload = {}) {
+    write_(page_.text, {type, page_.position, history_, measurement, payload});
+  }
 
   const Stores& stores_;
   const EventService::Write write_;

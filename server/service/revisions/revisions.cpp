@@ -127,7 +127,6 @@ struct RevisionIntake::Job {
   Stores& stores;
   TableCatalog& tables;
   const Origins& origins;
-  const RevisionPage& page;
   std::int64_t now;
 
   Outcome outcome{};
@@ -274,19 +273,11 @@ struct RevisionIntake::Job {
 Result<RevisionIntake::Outcome> RevisionIntake::take(const RevisionPage& page) {
   if (page.revisions.empty()) return Outcome{};
   TRY(prepare(page));
-  struct Taken {
-    Outcome outcome;
-    std::optional<TableCatalog::Received> received;
-    std::vector<std::pair<std::string_view, std::string>> told;
-  };
   auto taken = TRY(database_.writer().wait([&](Stores& stores) {
-    Job job{.stores = stores,
-            .tables = tables_,
-            .origins = origins_,
-            .page = page,
-            .now = clock_.now().nanoseconds};
+    Job job{
+        .stores = stores, .tables = tables_, .origins = origins_, .now = clock_.now().nanoseconds};
     for (const Revision& revision : page.revisions) job.take(revision);
-    return Taken{job.outcome, std::move(job.received), std::move(job.told)};
+    return job;
   }));
   if (taken.received) tables_.put_in_force(*taken.received);
   for (const auto& [event, detail] : taken.told) tell_once(event, detail);
