@@ -1,7 +1,5 @@
 #include "record/measurement.hpp"
 
-#include "record/origins.hpp"
-
 namespace fitgauge::app {
 namespace {
 

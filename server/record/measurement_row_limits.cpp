@@ -1,6 +1,6 @@
 #include "record/measurement_row_reader.hpp"
 #include "tables/iso286/tolerance_class.hpp"
-#include "tables/standards/designated_limits.hpp"
+#include "tables/standards/standard.hpp"
 
 // A row gives its limits by a designation, a class with its nominal size, or limits of a drawing.
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "tables/iso286/table_data.hpp"
 #include "tables/iso286/tolerance_class.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::iso286 {
 

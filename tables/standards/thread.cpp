@@ -1,4 +1,3 @@
-#include "tables/standards/designated_limits.hpp"
 #include "tables/standards/standard.hpp"
 
 namespace fitgauge::standards {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "api/wire/formulas.hpp"
-#include "metrology/statistics/measuring_process.hpp"
+#include "metrology/statistics/gauge_study.hpp"
 
 namespace fitgauge::api {
 

@@ -1,4 +1,4 @@
-#include "metrology/statistics/decimals.hpp"
+#include "metrology/statistics/summary.hpp"
 
 namespace fitgauge::metrology {
 namespace {

@@ -1,6 +1,5 @@
 #include "metrology/statistics/capability.hpp"
 
-#include "metrology/statistics/process_model.hpp"
 #include "metrology/statistics/summary.hpp"
 
 namespace fitgauge::metrology {

@@ -1,7 +1,7 @@
 #include "metrology/statistics/gauge_study.hpp"
 
+#include "metrology/statistics/control_chart.hpp"
 #include "metrology/statistics/summary.hpp"
-#include "metrology/statistics/zone_rules.hpp"
 
 namespace fitgauge::metrology {
 namespace {

@@ -1,4 +1,4 @@
-#include "metrology/statistics/process_model.hpp"
+#include "metrology/statistics/capability.hpp"
 
 namespace fitgauge::metrology {
 namespace {

@@ -1,4 +1,4 @@
-#include "metrology/statistics/zone_rules.hpp"
+#include "metrology/statistics/control_chart.hpp"
 
 #include <boost/math/quadrature/gauss.hpp>
 

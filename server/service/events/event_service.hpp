@@ -3,7 +3,6 @@
 #include "base/thread.hpp"
 #include "db/store/documents_store.hpp"
 #include "record/measurement.hpp"
-#include "record/origins.hpp"
 #include "service/storage.hpp"
 
 namespace fitgauge::app {

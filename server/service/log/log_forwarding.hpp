@@ -4,7 +4,6 @@
 #include "db/store/keys_store.hpp"
 #include "proof/note.hpp"
 #include "record/measurement.hpp"
-#include "record/origins.hpp"
 #include "service/log/log_service.hpp"
 #include "service/storage.hpp"
 

@@ -6,7 +6,6 @@
 #include "db/store/log_store.hpp"
 #include "proof/note.hpp"
 #include "record/measurement.hpp"
-#include "record/origins.hpp"
 #include "service/storage.hpp"
 
 namespace fitgauge::app {

@@ -1,8 +1,8 @@
 #include "service/log/station_texts.hpp"
 
 #include "base/json/json_writer.hpp"
+#include "record/measurement.hpp"
 #include "record/note.hpp"
-#include "record/origins.hpp"
 #include "record/record.hpp"
 #include "service/tables/custom_column.hpp"
 

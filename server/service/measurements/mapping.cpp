@@ -1,6 +1,6 @@
 #include "service/measurements/mapping.hpp"
 
-#include "record/origins.hpp"
+#include "record/measurement.hpp"
 #include "record/verdict_codec.hpp"
 #include "service/tables/table_catalog.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "db/store/tables_store.hpp"
 #include "service/measurements/measurement_service.hpp"
-#include "tables/iso286/table_data.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::app {
 

@@ -1,7 +1,7 @@
 #include "base/thread.hpp"
 #include "db/store/database.hpp"
+#include "record/measurement.hpp"
 #include "record/note.hpp"
-#include "record/origins.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/measurements/measurement_storage.hpp"
 

@@ -1,7 +1,7 @@
 #include "service/measurements/measurement_service.hpp"
 
 #include "db/store/database.hpp"
-#include "record/origins.hpp"
+#include "record/measurement.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/measurements/measurement_storage.hpp"
 #include "service/tables/table_catalog.hpp"

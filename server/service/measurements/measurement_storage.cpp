@@ -1,7 +1,7 @@
 #include "service/measurements/measurement_storage.hpp"
 
+#include "record/measurement.hpp"
 #include "record/note.hpp"
-#include "record/origins.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/tables/table_catalog.hpp"
 

@@ -1,9 +1,8 @@
 #include "metrology/gauging/gauge.hpp"
 #include "metrology/statistics/capability.hpp"
+#include "metrology/statistics/control_chart.hpp"
 #include "metrology/statistics/gauge_study.hpp"
-#include "metrology/statistics/measuring_process.hpp"
 #include "metrology/statistics/uncertainty.hpp"
-#include "metrology/statistics/zone_rules.hpp"
 #include "service/qualification/qualification.hpp"
 
 namespace fitgauge::app::qualification {

@@ -1,7 +1,7 @@
 #include "service/revisions/revisions.hpp"
 
 #include "db/store/database.hpp"
-#include "record/origins.hpp"
+#include "record/measurement.hpp"
 #include "record/record.hpp"
 #include "service/log/changes.hpp"
 #include "service/log/leaf.hpp"

@@ -4,7 +4,7 @@
 #include "record/measurement.hpp"
 #include "service/documents/key_service.hpp"
 #include "service/storage.hpp"
-#include "tables/iso286/table_data.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::app {
 

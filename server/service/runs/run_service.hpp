@@ -2,7 +2,7 @@
 
 #include "base/worker_pool.hpp"
 #include "nc/klartext/diagnostic.hpp"
-#include "record/origins.hpp"
+#include "record/measurement.hpp"
 #include "service/files/file_service.hpp"
 #include "service/measurements/measurement_service.hpp"
 #include "service/runs/active_run.hpp"

@@ -4,7 +4,7 @@
 
 #include "base/csv.hpp"
 #include "record/record.hpp"
-#include "tables/iso286/table_data.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

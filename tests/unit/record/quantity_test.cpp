@@ -2,7 +2,7 @@
 
 #include "record/measurement_batch.hpp"
 #include "record/record.hpp"
-#include "tables/iso286/table_data.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

@@ -8,7 +8,7 @@
 
 #include "service/runs/active_run.hpp"
 #include "service/runs/control_files.hpp"
-#include "tables/iso286/table_data.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::app {
 namespace {

@@ -1,8 +1,7 @@
 #include "nc/probing/object/object_cycle.hpp"
 
-#include "tables/iso286/table_data.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
-#include "tables/standards/designated_limits.hpp"
+#include "tables/standards/standard.hpp"
 
 namespace fitgauge::probing {
 namespace {

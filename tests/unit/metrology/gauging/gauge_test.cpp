@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "metrology/gauging/conformance.hpp"
-
 using namespace fitgauge;
 using namespace fitgauge::gauging;
 using iso286::Feature;

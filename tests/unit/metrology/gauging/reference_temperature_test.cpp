@@ -1,4 +1,4 @@
-#include "metrology/gauging/conformance.hpp"
+#include "metrology/gauging/gauge.hpp"
 
 #include <doctest/doctest.h>
 

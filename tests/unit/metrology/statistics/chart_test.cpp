@@ -1,6 +1,6 @@
 #include <random>
 
-#include "metrology/statistics/zone_rules.hpp"
+#include "metrology/statistics/control_chart.hpp"
 #include "support.hpp"
 
 using namespace fitgauge;

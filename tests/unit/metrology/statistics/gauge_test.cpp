@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "metrology/statistics/fit_analysis.hpp"
-#include "tables/iso286/table_data.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::metrology;

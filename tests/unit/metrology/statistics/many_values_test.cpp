@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "metrology/statistics/process_model.hpp"
+#include "metrology/statistics/capability.hpp"
 #include "metrology/statistics/summary.hpp"
 
 // What is done otherwise with many values gives the same as with few.

@@ -1,5 +1,4 @@
 #include "metrology/statistics/gauge_study.hpp"
-#include "metrology/statistics/measuring_process.hpp"
 #include "support.hpp"
 
 using namespace fitgauge;

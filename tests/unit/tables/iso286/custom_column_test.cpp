@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "tables/iso286/table_data.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 #include "tables_fixture.hpp"
 
 using namespace fitgauge;

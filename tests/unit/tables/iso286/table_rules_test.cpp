@@ -1,4 +1,4 @@
-#include "tables/iso286/table_data.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 #include <doctest/doctest.h>
 

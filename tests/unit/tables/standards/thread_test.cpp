@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "tables/standards/designated_limits.hpp"
+#include "tables/standards/standard.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::standards;
