@@ -2,7 +2,6 @@
 
 #include <poll.h>
 
-#include "db/postgres/prepared.hpp"
 #include "db/store/stores.hpp"
 
 namespace fitgauge::store::postgres {

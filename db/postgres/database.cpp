@@ -1,12 +1,10 @@
 #include "db/store/database.hpp"
 
 #include "db/postgres/connection.hpp"
-#include "db/postgres/listener.hpp"
 #include "db/postgres/session.hpp"
 #include "db/sql/sealed_table.hpp"
 #include "db/sql/session.hpp"
 #include "db/sql/statement.hpp"
-#include "db/sql/writer_engine.hpp"
 #include "db/store/stores.hpp"
 
 namespace fitgauge::store::postgres {

@@ -1,4 +1,4 @@
-#include "db/postgres/prepared.hpp"
+#include "db/postgres/connection.hpp"
 
 #include "db/store/measurement_row.hpp"
 

@@ -1,4 +1,4 @@
-#include "db/sql/measurement_summary.hpp"
+#include "db/sql/measurement_query.hpp"
 
 namespace fitgauge::store {
 namespace {

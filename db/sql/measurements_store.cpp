@@ -3,7 +3,6 @@
 #include "db/sql/connection.hpp"
 #include "db/sql/measurement_indexer.hpp"
 #include "db/sql/measurement_query.hpp"
-#include "db/sql/measurement_summary.hpp"
 #include "db/sql/statement.hpp"
 #include "db/store/block_columns.hpp"
 #include "db/store/measurement_row.hpp"

@@ -1,4 +1,4 @@
-#include "db/sql/writer_engine.hpp"
+#include "db/sql/session.hpp"
 
 #include <sstream>
 

@@ -10,8 +10,8 @@
 #include "db/sql/session.hpp"
 #include "db/sql/statement.hpp"
 #include "db/sqlite/data_directory.hpp"
+#include "db/store/database.hpp"
 #include "db/store/measurement_row.hpp"
-#include "db/store/open_options.hpp"
 
 namespace fitgauge::store::sqlite {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "base/folder.hpp"
-#include "db/store/open_options.hpp"
+#include "db/store/database.hpp"
 
 namespace fitgauge::store::sqlite {
 

@@ -5,11 +5,9 @@
 #include <filesystem>
 
 #include "db/sql/session.hpp"
-#include "db/sql/writer_engine.hpp"
 #include "db/sqlite/connection.hpp"
 #include "db/sqlite/data_directory.hpp"
 #include "db/sqlite/database_file.hpp"
-#include "db/sqlite/upkeep.hpp"
 #include "db/store/stores.hpp"
 
 namespace fitgauge::store::sqlite {

@@ -1,8 +1,7 @@
-#include "db/sqlite/upkeep.hpp"
+#include "db/sqlite/database_file.hpp"
 
 #include <sqlite3.h>
 
-#include "db/sqlite/database_file.hpp"
 #include "db/store/stores.hpp"
 
 namespace fitgauge::store {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "db/store/open_options.hpp"
+#include "db/store/database.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/events/event_service.hpp"
 #include "service/jobs.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "db/store/open_options.hpp"
+#include "db/store/database.hpp"
 #include "service/log/leaf.hpp"
 #include "service/log/log_service.hpp"
 #include "service/measurements/mapping.hpp"

@@ -2,7 +2,6 @@
 
 #include "base/clock.hpp"
 #include "db/store/database.hpp"
-#include "db/store/open_options.hpp"
 
 namespace fitgauge::store::test {
 

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "db/postgres/connection.hpp"
-#include "db/postgres/listener.hpp"
+#include "db/postgres/session.hpp"
 #include "fixture.hpp"
 #include "support/comes_true.hpp"
 

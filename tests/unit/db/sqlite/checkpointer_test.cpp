@@ -1,4 +1,4 @@
-#include "db/sqlite/upkeep.hpp"
+#include "db/sqlite/database_file.hpp"
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-#include "db/store/open_options.hpp"
+#include "db/store/database.hpp"
 
 #include "db/sqlite/connection.hpp"
 #include "db/sqlite/database_file.hpp"
