@@ -2,12 +2,10 @@
 
 #include "formats/certificate/certificate.hpp"
 #include "http/route.hpp"
-#include "service/state/readiness.hpp"
+#include "service/storage.hpp"
 
 namespace fitgauge::app {
 
-class TableCatalog;
-class LogService;
 class LogIntake;
 class RevisionFeed;
 class MeasurementService;

@@ -1,6 +1,6 @@
 #include "plant/connections.hpp"
 
-#include "service/log/changes.hpp"
+#include "service/log/leaves.hpp"
 
 namespace fitgauge::connections {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "db/sqlite/data_directory.hpp"
 #include "db/store/database.hpp"
-#include "service/log/log_check.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/log/log_reader.hpp"
 

@@ -7,7 +7,6 @@
 #include "service/log/log_forwarding.hpp"
 #include "service/revisions/revisions.hpp"
 #include "service/runs/run_service.hpp"
-#include "service/state/readiness.hpp"
 #include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::app {

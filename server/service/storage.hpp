@@ -1,6 +1,6 @@
 #pragma once
 
-// Names of the storage and of its readers, for declarations.
+// Names of the storage and of its readers, for declarations, and whether they may be used.
 
 namespace fitgauge::store {
 
@@ -23,5 +23,11 @@ using store::Stores;
 class LogService;
 class Origins;
 class TableCatalog;
+
+/// Whether the service may be used, and the activity of the database.
+struct Readiness {
+  std::vector<Error> findings;  ///< empty: ready
+  std::string database;         ///< `ok`, or `checking` while a large file is still being read
+};
 
 }  // namespace fitgauge::app

@@ -2,7 +2,7 @@
 
 #include "base/json/body_forms.hpp"
 #include "nc/run/interpreter.hpp"
-#include "service/runs/control_tables.hpp"
+#include "service/runs/control_files.hpp"
 
 namespace fitgauge::api {
 

@@ -2,7 +2,7 @@
 
 #include "base/thread.hpp"
 #include "db/store/database.hpp"
-#include "service/log/changes.hpp"
+#include "service/log/leaves.hpp"
 #include "service/revisions/revisions.hpp"
 
 namespace fitgauge::app {

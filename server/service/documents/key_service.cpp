@@ -2,7 +2,7 @@
 
 #include "base/json/json_writer.hpp"
 #include "db/store/database.hpp"
-#include "service/log/changes.hpp"
+#include "service/log/leaves.hpp"
 
 namespace fitgauge::app {
 namespace {

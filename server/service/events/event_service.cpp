@@ -1,7 +1,7 @@
 #include "service/events/event_service.hpp"
 
 #include "db/store/database.hpp"
-#include "service/measurements/mapping.hpp"
+#include "service/measurements/measurement_storage.hpp"
 #include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::app {

@@ -1,7 +1,7 @@
 #include <sstream>
 
 #include "db/store/database.hpp"
-#include "service/log/changes.hpp"
+#include "service/log/leaves.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/log/log_reader.hpp"
 #include "service/log/log_service.hpp"

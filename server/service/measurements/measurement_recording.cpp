@@ -2,7 +2,6 @@
 #include "db/store/database.hpp"
 #include "record/measurement.hpp"
 #include "record/note.hpp"
-#include "service/measurements/mapping.hpp"
 #include "service/measurements/measurement_storage.hpp"
 
 namespace fitgauge::app {

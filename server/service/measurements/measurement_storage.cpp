@@ -1,12 +1,37 @@
 #include "service/measurements/measurement_storage.hpp"
 
-#include "record/measurement.hpp"
 #include "record/note.hpp"
-#include "service/measurements/mapping.hpp"
+#include "record/verdict_codec.hpp"
 #include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::app {
 namespace {
+
+template <class T>
+std::optional<std::int64_t> count_of(const std::optional<T>& length) {
+  return length ? std::optional(length->count()) : std::nullopt;
+}
+
+std::optional<Length> length_of(std::optional<std::int64_t> nanometres) {
+  return nanometres ? std::optional(Length::nanometres(*nanometres)) : std::nullopt;
+}
+
+iso286::NominalSizeRange range_of(std::int64_t over_nm, std::int64_t up_to_nm) {
+  return {.over = Length::nanometres(over_nm), .up_to = Length::nanometres(up_to_nm)};
+}
+
+/// The rule of a row. @throws boost::system::system_error for numbers that no rule has.
+gauging::DecisionRule rule_of(const MeasurementRow& row) {
+  if (row.rule == store::Rule::Simple) return {};
+  const bool is_guarded = row.rule == store::Rule::GuardBand;
+  return api::make_rule({.kind = row.rule,
+                         .standard_uncertainty = length_of(row.uncertainty_nm.value_or(0)),
+                         .coverage_millionths = is_guarded ? row.coverage_factor : std::nullopt,
+                         .probability_millionths = row.probability,
+                         .degrees_of_freedom = row.degrees_of_freedom,
+                         .added_uncertainty = row.added_uncertainty})
+      .value();
+}
 
 /// The store knows ids as numbers: this error names them as the outside does.
 Error corrected_before(const Stores& stores, const Measurement& correction, std::int64_t row) {
@@ -22,6 +47,147 @@ Error corrected_before(const Stores& stores, const Measurement& correction, std:
 }
 
 }  // namespace
+
+store::TableContent to_store(const iso286::TableData& data) {
+  store::TableContent content;
+  for (const iso286::TableCell& cell : data.cells) {
+    content.cells.push_back({.table = std::string(name(cell.table)),
+                             .column = cell.column,
+                             .over_nm = cell.range.over.count(),
+                             .up_to_nm = cell.range.up_to.count(),
+                             .value_nm = count_of(cell.value)});
+  }
+  for (const iso286::CustomColumn& column : data.custom_columns) {
+    for (const iso286::CustomRow& row : column.rows) {
+      content.custom.push_back({.table = std::string(word(column.feature)),
+                                .column = column.name,
+                                .over_nm = row.range.over.count(),
+                                .up_to_nm = row.range.up_to.count(),
+                                .upper_nm = row.deviations.upper.count(),
+                                .lower_nm = row.deviations.lower.count()});
+    }
+  }
+  return content;
+}
+
+Result<iso286::TableData> from_store(const store::TableContent& content) {
+  iso286::TableData data;
+  for (const store::TableCell& cell : content.cells) {
+    const auto table = iso286::table_from_name(cell.table);
+    if (!table) {
+      return Error{ErrorCode::TablesInconsistent, "unknown table " + cell.table, cell.table};
+    }
+    data.cells.push_back({.table = *table,
+                          .range = range_of(cell.over_nm, cell.up_to_nm),
+                          .column = cell.column,
+                          .value = length_of(cell.value_nm)});
+  }
+  std::map<std::pair<iso286::Feature, std::string>, std::vector<iso286::CustomRow>> columns;
+  for (const store::CustomCell& cell : content.custom) {
+    const auto feature = iso286::feature_from_word(cell.table);
+    if (!feature) {
+      return Error{ErrorCode::TablesInconsistent, "unknown table " + cell.table, cell.table};
+    }
+    columns[{*feature, cell.column}].push_back(
+        {.range = range_of(cell.over_nm, cell.up_to_nm),
+         .deviations = {.upper = Length::nanometres(cell.upper_nm),
+                        .lower = Length::nanometres(cell.lower_nm)}});
+  }
+  for (auto& [key, rows] : columns) {
+    data.custom_columns.push_back(
+        {.feature = key.first, .name = key.second, .rows = std::move(rows)});
+  }
+  return data;
+}
+
+store::IdempotentRequest to_store(const IdempotencyScope& scope) {
+  return {.caller = scope.caller,
+          .method = scope.method,
+          .path = scope.path,
+          .key = scope.key,
+          .body = sha256(scope.body),
+          .is_kept_for_ever = scope.is_kept_for_ever};
+}
+
+RowNames row_names(const TableCatalog& tables, const Origins& origins) {
+  return {.revision_id = [&tables](std::int64_t number) { return tables.revision_id(number); },
+          .origin = [&origins](std::int64_t origin,
+                               std::int64_t number) { return origins.digits(origin, number); }};
+}
+
+MeasurementRow to_store(const Measurement& m) {
+  MeasurementRow row;
+  static_cast<MeasurementFields&>(row) = m;
+  row.id = m.id;
+  row.measured_at_ns = m.measured_at.nanoseconds;
+  row.received_at_ns = m.received_at.nanoseconds;
+  row.nominal_nm = m.nominal_size.count();
+  row.tolerance_class = m.class_name;
+  row.upper_deviation_nm = m.deviations.upper.count();
+  row.lower_deviation_nm = m.deviations.lower.count();
+  if (m.size_range) {
+    row.size_over_nm = m.size_range->over.count();
+    row.size_up_to_nm = m.size_range->up_to.count();
+  }
+  row.table_revision = m.revision_number;
+  row.measured_nm = m.measured.count();
+  row.verdict = m.result.verdict;
+  row.rule = m.rule.kind();
+  row.uncertainty_nm = count_of(m.standard_uncertainty);
+  if (m.coverage_factor) row.coverage_factor = m.coverage_factor->millionths();
+  if (m.conformance) {
+    row.probability = m.rule.probability().millionths();
+    row.conformance = m.conformance->probability;
+    row.guard_band = m.conformance->guard_band;
+  }
+  row.corrected_nm = count_of(m.corrected);
+  row.correction_of = m.correction_of;
+  if (m.corrected_elsewhere) {
+    row.correction_of = m.corrected_elsewhere->row;
+    row.corrected_origin = m.corrected_elsewhere->origin;
+    row.corrected_number = m.correction_of;
+  }
+  return row;
+}
+
+Measurement from_store(const MeasurementRow& row, const RowNames& names) {
+  Measurement m;
+  static_cast<MeasurementFields&>(m) = row;
+  m.id = row.public_number();
+  m.origin_number = row.origin.value_or(0);
+  m.origin = names.origin(m.origin_number, m.id);
+  m.row = row.id;
+  m.measured_at = {row.measured_at_ns};
+  m.received_at = {row.received_at_ns};
+  m.nominal_size = Length::nanometres(row.nominal_nm);
+  m.class_name = row.tolerance_class;
+  m.deviations = {.upper = Length::nanometres(row.upper_deviation_nm),
+                  .lower = Length::nanometres(row.lower_deviation_nm)};
+  if (row.size_over_nm && row.size_up_to_nm) {
+    m.size_range = range_of(*row.size_over_nm, *row.size_up_to_nm);
+  }
+  m.revision_number = row.table_revision;
+  if (row.table_revision) m.table_revision = names.revision_id(*row.table_revision);
+  m.measured = Length::nanometres(row.measured_nm);
+  m.standard_uncertainty = length_of(row.uncertainty_nm);
+  if (row.coverage_factor) {
+    m.coverage_factor = gauging::CoverageFactor::from_millionths(*row.coverage_factor).value();
+  }
+  m.rule = rule_of(row);
+  m.corrected = length_of(row.corrected_nm);
+  m.result = gauging::gauge(m.feature, m.upper_limit(), m.lower_limit(), m.decisive());
+  m.result.verdict = row.verdict;  // the excess is not stored
+  if (row.conformance && row.guard_band) {
+    m.conformance = {.probability = *row.conformance, .guard_band = *row.guard_band};
+  }
+  m.correction_of = row.corrected_number ? row.corrected_number : row.correction_of;
+  if (row.corrected_origin && row.correction_of) {
+    m.corrected_elsewhere = {.row = *row.correction_of,
+                             .origin = *row.corrected_origin,
+                             .digits = names.origin(*row.corrected_origin, *m.correction_of)};
+  }
+  return m;
+}
 
 void number_revisions(std::span<Measurement> measurements, const TableCatalog& tables) {
   std::string_view last;

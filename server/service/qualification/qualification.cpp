@@ -5,7 +5,7 @@
 #include "base/json/json_writer.hpp"
 #include "formats/certificate/certificate.hpp"
 #include "proof/note.hpp"
-#include "service/measurements/mapping.hpp"
+#include "service/measurements/measurement_storage.hpp"
 
 namespace fitgauge::app::qualification {
 namespace {

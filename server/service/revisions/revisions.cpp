@@ -3,9 +3,8 @@
 #include "db/store/database.hpp"
 #include "record/measurement.hpp"
 #include "record/record.hpp"
-#include "service/log/changes.hpp"
-#include "service/log/leaf.hpp"
-#include "service/measurements/mapping.hpp"
+#include "service/log/leaves.hpp"
+#include "service/measurements/measurement_storage.hpp"
 #include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::app {

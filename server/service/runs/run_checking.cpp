@@ -4,7 +4,7 @@
 #include "nc/klartext/mask_file.hpp"
 #include "nc/klartext/parser.hpp"
 #include "nc/program/program_cache.hpp"
-#include "service/measurements/mapping.hpp"
+#include "service/measurements/measurement_storage.hpp"
 #include "service/runs/run_service.hpp"
 #include "tables/tabfile/tab_table.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "db/store/database.hpp"
 #include "nc/program/program_cache.hpp"
-#include "service/measurements/mapping.hpp"
+#include "service/measurements/measurement_storage.hpp"
 
 namespace fitgauge::app {
 namespace {

@@ -7,7 +7,6 @@
 #include "service/measurements/measurement_service.hpp"
 #include "service/runs/active_run.hpp"
 #include "service/runs/control_files.hpp"
-#include "service/runs/control_tables.hpp"
 #include "service/runs/stored_run.hpp"
 
 namespace fitgauge::app {

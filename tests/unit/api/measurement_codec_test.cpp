@@ -4,7 +4,7 @@
 
 #include "base/json/json_writer.hpp"
 #include "record/record.hpp"
-#include "service/log/leaf.hpp"
+#include "service/log/leaves.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

@@ -1,4 +1,4 @@
-#include "service/runs/control_tables.hpp"
+#include "service/runs/control_files.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "service/measurements/corrected_places.hpp"
+#include "service/measurements/measurement_service.hpp"
 
 #include <doctest/doctest.h>
 
