@@ -59,7 +59,7 @@ class Notifications {
   Clock::time_point next_{};
 };
 
-/// Class of the advisory locks that living daemons hold.
+/// Class of the advisory locks that living daemons hold; 0001_service.sql has the number too.
 inline constexpr int kDaemonLocks = 0x46744761;
 
 /// Receives the notifications of all daemons and sends the postponed ones of this daemon, on its

@@ -149,14 +149,12 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
   for (Rows rows = block_.query(ids.first, ids.last); rows.next(); ++row) {
     const auto measured_at = rows.get<std::int64_t>(BlockColumn::MeasuredAt);
     const auto received_at = rows.get<std::int64_t>(BlockColumn::ReceivedAt);
-    if (row == 0) {
-      index.min_measured_at = index.max_measured_at = measured_at;
-      index.min_received_at = index.max_received_at = received_at;
-    }
-    index.min_measured_at = std::min(index.min_measured_at, measured_at);
-    index.max_measured_at = std::max(index.max_measured_at, measured_at);
-    index.min_received_at = std::min(index.min_received_at, received_at);
-    index.max_received_at = std::max(index.max_received_at, received_at);
+    if (row == 0) index.times = {measured_at, measured_at, received_at, received_at};
+    auto& [min_measured_at, max_measured_at, min_received_at, max_received_at] = index.times;
+    min_measured_at = std::min(min_measured_at, measured_at);
+    max_measured_at = std::max(max_measured_at, measured_at);
+    min_received_at = std::min(min_received_at, received_at);
+    max_received_at = std::max(max_received_at, received_at);
     const auto measured_nm = rows.get<std::int64_t>(BlockColumn::Measured);
     const bool corrects =
         rows.get<std::optional<std::int64_t>>(BlockColumn::CorrectionOf).has_value();
@@ -242,10 +240,7 @@ NodeIndex MeasurementIndexer::derive_parent(const IndexNode& node) {
   const IndexNode first = node.child(0);
   const IndexNode last = node.child(kFanOut - 1);
   if (Rows rows = child_times_.query(first.level, first.node, last.node); rows.next()) {
-    index.min_measured_at = rows.get<std::int64_t>(0);
-    index.max_measured_at = rows.get<std::int64_t>(1);
-    index.min_received_at = rows.get<std::int64_t>(2);
-    index.max_received_at = rows.get<std::int64_t>(3);
+    index.times = sql::row_of<NodeTimes>(rows);
     index.pairs.is_complete = rows.get<std::int64_t>(4) == 1;
   }
   std::map<int, std::set<std::int64_t>> children;
@@ -288,8 +283,9 @@ void MeasurementIndexer::aggregate_rows(const IndexNode& node, TextField field, 
 }
 
 void MeasurementIndexer::insert(const IndexNode& node, const NodeIndex& index) {
-  insert_node_.run(node.level, node.node, index.min_measured_at, index.max_measured_at,
-                   index.min_received_at, index.max_received_at, index.pairs.is_complete);
+  const auto& [min_measured_at, max_measured_at, min_received_at, max_received_at] = index.times;
+  insert_node_.run(node.level, node.node, min_measured_at, max_measured_at, min_received_at,
+                   max_received_at, index.pairs.is_complete);
   struct Posting {
     int field;
     std::string_view value;
@@ -322,16 +318,14 @@ void MeasurementIndexer::verify(const std::function<void(std::string)>& note) {
     IndexNode node;
     bool stale = false;
     bool paired = false;
-    std::array<std::int64_t, 4> times{};
+    NodeTimes times{};
   };
   std::vector<Stored> stored;
   for (Rows rows = nodes_.query(); rows.next();) {
-    Stored& node = stored.emplace_back();
-    node.node = {rows.get<int>(0), rows.get<std::int64_t>(1)};
-    for (int i = 0; i < 4; ++i)
-      node.times.at(static_cast<std::size_t>(i)) = rows.get<std::int64_t>(2 + i);
-    node.stale = rows.get<bool>(6);
-    node.paired = rows.get<std::int64_t>(7) == 1;
+    stored.push_back({.node = {rows.get<int>(4), rows.get<std::int64_t>(5)},
+                      .stale = rows.get<bool>(6),
+                      .paired = rows.get<std::int64_t>(7) == 1,
+                      .times = sql::row_of<NodeTimes>(rows)});
   }
   std::int64_t postings = 0;
   std::int64_t values = 0;
@@ -339,9 +333,7 @@ void MeasurementIndexer::verify(const std::function<void(std::string)>& note) {
     const NodeIndex index = derive(node.node);
     postings += static_cast<std::int64_t>(index.postings.size());
     values += index.values ? 1 : 0;
-    const std::array<std::int64_t, 4> times{index.min_measured_at, index.max_measured_at,
-                                            index.min_received_at, index.max_received_at};
-    if (times == node.times && is_stored(node.node, index, node.stale) &&
+    if (index.times == node.times && is_stored(node.node, index, node.stale) &&
         (!node.paired || pairs_.is_stored(node.node, index.pairs))) {
       continue;
     }

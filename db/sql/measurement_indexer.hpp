@@ -5,13 +5,19 @@
 
 namespace fitgauge::store {
 
-/// Statistics of a node, derived only from the measurements.
-struct NodeIndex {
+/// First and last times of a node's rows; its members are columns in their order (sql::row_of).
+struct NodeTimes {
   std::int64_t min_measured_at = 0;
   std::int64_t max_measured_at = 0;
   std::int64_t min_received_at = 0;
   std::int64_t max_received_at = 0;
 
+  friend bool operator==(const NodeTimes&, const NodeTimes&) = default;
+};
+
+/// Statistics of a node, derived only from the measurements.
+struct NodeIndex {
+  NodeTimes times;
   /// Rows of a block by field and value; empty for other nodes.
   std::map<std::pair<int, std::string>, RowSet> postings;
   /// Field, value and kind (8 * source + verdict) of the rows that no other row corrects.
@@ -103,8 +109,8 @@ class MeasurementIndexer {
       "UPDATE measurement_nodes SET stale = 0, paired = ? WHERE level = ? AND node = ?"};
   sql::Statement nodes_{
       connection_,
-      "SELECT level, node, min_measured_at, max_measured_at, min_received_at, "
-      "max_received_at, stale, paired FROM measurement_nodes ORDER BY level, node"};
+      "SELECT min_measured_at, max_measured_at, min_received_at, max_received_at, level, node, "
+      "stale, paired FROM measurement_nodes ORDER BY level, node"};
   sql::Statement posting_{
       connection_,
       "SELECT rows FROM measurement_postings WHERE field = ? AND value = ? AND block = ?"};

@@ -133,15 +133,14 @@ std::string shown_digits(const Digest& digest) { return to_hex(digest).substr(0,
 Digest digest_of(const TableContent& content) {
   if (!is_sorted(content)) return digest_of(sorted(content));  // stored cells come sorted
   CanonicalDigest digest;
-  const auto add_all = [&digest](const auto&... values) { (digest.add(values), ...); };
-  digest.add(content.cells.size());
-  for (const TableCell& cell : content.cells) {
-    add_all(cell.table, cell.column, cell.over_nm, cell.up_to_nm, cell.value_nm);
-  }
-  digest.add(content.custom.size());
-  for (const CustomCell& cell : content.custom) {
-    add_all(cell.table, cell.column, cell.over_nm, cell.up_to_nm, cell.upper_nm, cell.lower_nm);
-  }
+  const auto add = [&digest](const auto& cells) {
+    digest.add(cells.size());
+    for (const auto& cell : cells) {
+      boost::pfr::for_each_field(cell, [&digest](const auto& member) { digest.add(member); });
+    }
+  };
+  add(content.cells);
+  add(content.custom);
   return digest.finish();
 }
 

@@ -6,10 +6,13 @@ namespace fitgauge::app {
 
 /// The source of a measurement: a gauge at a part, or the simulated machine.
 enum class Source : std::uint8_t { Gauge, Simulation };
+inline constexpr std::string_view kSourceWords[] = {"gauge", "simulation"};
 /// Source of the limits: a class of the tables, a custom tolerance class, the drawing, or a
 /// designation of another standard; None: a value without limits; Bare: also without a nominal
 /// size.
 enum class LimitsBasis : std::uint8_t { Iso286, Custom, Explicit, Standard, None, Bare };
+inline constexpr std::string_view kBasisWords[] = {"iso286",   "custom", "explicit",
+                                                   "standard", "none",   "none"};
 
 /// Texts and numbers of a measurement that are stored, logged and answered as they are. Texts are
 /// views of the memory that they were read from.

@@ -49,20 +49,6 @@ bool sets_aside(std::span<const Note> notes) {
   return last != notes.rend() && last->measure == kSetAside;
 }
 
-std::string_view word(Source source) { return source == Source::Gauge ? "gauge" : "simulation"; }
-
-std::string_view word(LimitsBasis basis) {
-  constexpr std::string_view kWords[] = {"iso286",   "custom", "explicit",
-                                         "standard", "none",   "none"};
-  return kWords[static_cast<std::size_t>(basis)];
-}
-
-std::optional<Source> source_from_word(std::string_view text) {
-  if (text == word(Source::Gauge)) return Source::Gauge;
-  if (text == word(Source::Simulation)) return Source::Simulation;
-  return std::nullopt;
-}
-
 KeptMeasurement::KeptMeasurement(const Measurement& measurement) : measurement_(measurement) {
   measurement_.notes = {};
   const auto keep = [this](std::optional<std::string_view>& text) {

@@ -125,9 +125,11 @@ struct Note {
 /// Whether notes, the oldest first, set their value aside.
 bool sets_aside(std::span<const Note> notes);
 
-std::string_view word(Source source);
-std::string_view word(LimitsBasis basis);
-std::optional<Source> source_from_word(std::string_view text);
+constexpr std::string_view word(Source source) { return word_of(source, kSourceWords); }
+constexpr std::string_view word(LimitsBasis basis) { return word_of(basis, kBasisWords); }
+constexpr std::optional<Source> source_from_word(std::string_view text) {
+  return enum_of<Source>(text, kSourceWords);
+}
 
 inline constexpr int kTemperatureDecimals = 6;  ///< of a degree Celsius, as Measurement counts them
 inline constexpr int kPicometreDecimals = 6;    ///< of a micrometre

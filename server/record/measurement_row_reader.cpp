@@ -12,17 +12,11 @@ std::size_t search_field(std::string_view name) {
   return static_cast<std::size_t>(found - kRowFields.begin());
 }
 
-std::string_view name_of(RawValue::Kind kind) {
-  static_assert(static_cast<int>(RawValue::Kind::Object) ==
-                static_cast<int>(JsonValue::Kind::Object));
-  return fitgauge::name_of(static_cast<JsonValue::Kind>(kind));
-}
-
 }  // namespace
 
 RawValue raw_value(const JsonValue& value) {
   const bool is_truth = value.is(JsonValue::Kind::Boolean);
-  return {.kind = static_cast<RawValue::Kind>(value.kind),
+  return {.kind = value.kind,
           .text = is_truth ? (value.boolean ? "true" : "false") : std::string_view(value.text)};
 }
 

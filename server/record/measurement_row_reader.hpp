@@ -81,7 +81,7 @@ static_assert(kRowFields[RowField::DegreesOfFreedom].name == "degrees_of_freedom
 
 /// One value in its format, before it is read as a field.
 struct RawValue {
-  enum class Kind : std::uint8_t { Null, Boolean, Number, String, Array, Object };
+  using Kind = JsonValue::Kind;
 
   Kind kind = Kind::Null;
   std::string_view text{};     ///< digits of a number, characters of a string, true or false

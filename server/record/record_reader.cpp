@@ -130,14 +130,7 @@ void read_limits(Record& record, const JsonValue& json, Measurement& m) {
   if (m.has_feature()) m.feature = record.required("feature", feature);
   m.deviations = {.upper = record.um("upper_deviation_um").value_or(app::kNoLimit),
                   .lower = record.um("lower_deviation_um").value_or(-app::kNoLimit)};
-  using Basis = app::LimitsBasis;
-  const std::array known = {Basis::Iso286, Basis::Custom, Basis::Explicit, Basis::Standard};
-  const auto found = std::ranges::find(known, basis, [](Basis one) { return word(one); });
-  if (found == known.end()) {
-    record.wrong("basis");
-  } else {
-    m.basis = *found;
-  }
+  m.basis = record.required("basis", enum_of<app::LimitsBasis>(basis, app::kBasisWords));
   m.table_revision = record.text("table_revision").value_or("");
   if (const JsonValue* range = json.find("size_range_mm")) {
     TextArena unused;

@@ -200,12 +200,7 @@ Result<LogIntake::Judged> LogIntake::judge_tree(const ForwardedBatch& batch,
   bool fits = true;
   for (const ForwardedBatch::Row& row : batch.rows) {
     judged.leaves.push_back(tlog::leaf_hash(row.record));
-    const unsigned completed = grown.append(judged.leaves.back());
-    for (unsigned level = tlog::kTileHeight; level < completed; level += tlog::kTileHeight) {
-      judged.nodes.push_back({.level = static_cast<int>(level / tlog::kTileHeight),
-                              .index = static_cast<std::int64_t>((grown.size() >> level) - 1),
-                              .hash = grown.completed(level)});
-    }
+    append_leaf(grown, judged.leaves.back(), judged.nodes);
     if (grown.size() == known.head.size) fits = grown.root() == known.head.root;
   }
   judged.root = grown.root();

@@ -12,6 +12,16 @@ constexpr std::int64_t kChangesAtATime = 1000;
 
 }  // namespace
 
+void append_leaf(tlog::Frontier& tree, const tlog::Hash& leaf,
+                 std::vector<store::LogStore::Node>& nodes) {
+  const unsigned completed = tree.append(leaf);
+  for (unsigned level = tlog::kTileHeight; level < completed; level += tlog::kTileHeight) {
+    nodes.push_back({.level = static_cast<int>(level / tlog::kTileHeight),
+                     .index = static_cast<std::int64_t>((tree.size() >> level) - 1),
+                     .hash = tree.completed(level)});
+  }
+}
+
 std::vector<tlog::Hash> LogReader::leaves(std::int64_t after, std::int64_t count) {
   std::vector<tlog::Hash> leaves;
   leaves.reserve(static_cast<std::size_t>(count));

@@ -8,6 +8,10 @@
 
 namespace fitgauge::app {
 
+/// Appends a leaf to a tree. @param nodes receives the stored nodes that it completes
+void append_leaf(tlog::Frontier& tree, const tlog::Hash& leaf,
+                 std::vector<store::LogStore::Node>& nodes);
+
 /// Reads a log in one state of the database: the log of this folder, of its changes, or of a
 /// station: records, leaves and nodes. Used inside a read job.
 class LogReader {

@@ -158,9 +158,8 @@ Result<void> LogService::grow(const IsOver& is_over) {
   }
   // Not only this growth: earlier growth may not have been signed.
   if (frontier_.size() != head_.get()->checkpoint.size) sign();
-  const auto changes =
-      wait_for_result<std::string>([this](auto done) { changes_head(std::move(done)); });
-  return changes ? Result<void>() : changes.error();
+  TRY(wait_for_result<std::string>([this](auto done) { changes_head(std::move(done)); }));
+  return {};
 }
 
 Result<void> LogService::take_leaves(const IsOver& is_over, Stretch& stretch) {
@@ -170,14 +169,7 @@ Result<void> LogService::take_leaves(const IsOver& is_over, Stretch& stretch) {
     const auto size = static_cast<std::int64_t>(grown.size());
     const auto leaves = TRY(database_.readers().wait(
         [&](const Stores& stores) { return reader(stores).leaves(size, kLeavesAtATime); }));
-    for (const tlog::Hash& leaf : leaves) {
-      const unsigned completed = grown.append(leaf);
-      for (unsigned level = tlog::kTileHeight; level < completed; level += tlog::kTileHeight) {
-        stretch.nodes.push_back({.level = static_cast<int>(level / tlog::kTileHeight),
-                                 .index = static_cast<std::int64_t>((grown.size() >> level) - 1),
-                                 .hash = grown.completed(level)});
-      }
-    }
+    for (const tlog::Hash& leaf : leaves) append_leaf(grown, leaf, stretch.nodes);
     stretch.more = leaves.size() == static_cast<std::size_t>(kLeavesAtATime);
   }
   return {};

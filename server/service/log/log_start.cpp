@@ -179,9 +179,8 @@ Result<void> LogService::load() {
     tell("log_forked", *loaded->forked);
   }
   sign();
-  const auto changes =
-      wait_for_result<std::string>([this](auto done) { changes_head(std::move(done)); });
-  return changes ? Result<void>() : changes.error();
+  TRY(wait_for_result<std::string>([this](auto done) { changes_head(std::move(done)); }));
+  return {};
 }
 
 /// Makes the key at the first start of a history, or when it was lost, and lists its public half.
