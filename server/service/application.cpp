@@ -229,15 +229,13 @@ std::optional<tlog::Hash> Application::kept_node(std::int64_t origin,
 Readiness Application::readiness() const {
   Readiness readiness{.findings = tables_->state()->findings, .database = "ok"};
   const store::Health health = database_->health();
-  switch (health.state) {
-    case store::HealthState::Ok: break;
-    case store::HealthState::Checking: readiness.database = "checking"; break;
-    case store::HealthState::WritesFailing:
-      readiness.findings.push_back({ErrorCode::StorageUnavailable, health.reason, "database"});
-      break;
-    case store::HealthState::Damaged:
-      readiness.findings.push_back({ErrorCode::StorageCorrupt, health.reason, "database"});
-      break;
+  if (health.state == store::HealthState::Checking) {
+    readiness.database = "checking";
+  } else if (health.state != store::HealthState::Ok) {
+    const bool is_damaged = health.state == store::HealthState::Damaged;
+    readiness.findings.push_back(
+        {is_damaged ? ErrorCode::StorageCorrupt : ErrorCode::StorageUnavailable, health.reason,
+         "database"});
   }
   if (auto forked = log_->forked()) readiness.findings.push_back(*std::move(forked));
   return readiness;

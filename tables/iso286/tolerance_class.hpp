@@ -197,9 +197,9 @@ struct LimitsOfSize {
 
 /// ISO 286-1, 3.3.
 enum class FitKind : std::uint8_t { Clearance, Transition, Interference };
-
-/// `clearance`, `transition` or `interference`.
-std::string_view word(FitKind kind);
+constexpr std::string_view word(FitKind kind) {
+  return word_of(kind, {"clearance", "transition", "interference"});
+}
 
 /// A hole and a shaft of one nominal size. Interference is negative clearance.
 struct Fit {

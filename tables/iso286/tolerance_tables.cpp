@@ -212,10 +212,6 @@ std::optional<LimitDeviations> deviations_in_range(const ToleranceTables& tables
   }
 }
 
-std::string_view word(FitKind kind) {
-  return word_of(kind, {"clearance", "transition", "interference"});
-}
-
 FitKind Fit::kind() const {
   if (min_clearance() >= Length()) return FitKind::Clearance;
   if (max_clearance() <= Length()) return FitKind::Interference;

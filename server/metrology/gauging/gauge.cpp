@@ -44,12 +44,7 @@ Wide stretch(const ThermalBody& body) {
   return kOne + Wide{body.expansion} * (body.temperature - kReference);
 }
 
-constexpr std::string_view kWords[kVerdicts] = {"good", "rework", "reject", "indeterminate",
-                                                "unjudged"};
-
 constexpr int kFactorScale = 6;
-
-constexpr std::string_view kRuleWords[] = {"simple", "guard_band", "conformance"};
 
 /// Lengths and guard band in millionths of a nanometre.
 Verdict verdict(const Beyond& beyond, Wide upper, Wide lower, Wide measured, Wide guard) {
@@ -182,12 +177,6 @@ const Material* find_material(std::string_view name) {
   return found == kMaterials.end() ? nullptr : &*found;
 }
 
-std::string_view word(Verdict verdict) { return word_of(verdict, kWords); }
-
-std::optional<Verdict> verdict_from_word(std::string_view text) {
-  return enum_of<Verdict>(text, kWords);
-}
-
 Result<CoverageFactor> CoverageFactor::parse(std::string_view text, bool exponent) {
   const auto millionths = parse_decimal(text, {.scale = kFactorScale, .exponent = exponent});
   if (!millionths) {
@@ -248,12 +237,6 @@ bool has_no_acceptance(const DecisionRule& rule, Length tolerance) {
   return rule.kind() == DecisionRule::Kind::GuardBand &&
          Wide{2} * rule.standard_uncertainty().count() * rule.coverage_factor().millionths() >
              Wide{tolerance.count()} * 1'000'000;
-}
-
-std::string_view word(DecisionRule::Kind kind) { return word_of(kind, kRuleWords); }
-
-std::optional<DecisionRule::Kind> rule_from_word(std::string_view text) {
-  return enum_of<DecisionRule::Kind>(text, kRuleWords);
 }
 
 GaugingResult gauge(const Beyond& beyond, Length upper_limit, Length lower_limit, Length measured,

@@ -121,9 +121,12 @@ const Material* find_material(std::string_view name);
 enum class Verdict : std::uint8_t { Good, Rework, Reject, Indeterminate, Unjudged };
 inline constexpr std::size_t kVerdicts = 5;
 
-/// `good`, `rework`, `reject`, `indeterminate`, `unjudged`.
-std::string_view word(Verdict verdict);
-std::optional<Verdict> verdict_from_word(std::string_view text);
+inline constexpr std::string_view kVerdictWords[kVerdicts] = {"good", "rework", "reject",
+                                                              "indeterminate", "unjudged"};
+constexpr std::string_view word(Verdict verdict) { return word_of(verdict, kVerdictWords); }
+constexpr std::optional<Verdict> verdict_from_word(std::string_view text) {
+  return enum_of<Verdict>(text, kVerdictWords);
+}
 
 /// Orders verdicts: reject is the worst, before rework, indeterminate and good; least is none.
 constexpr int severity(std::optional<Verdict> verdict) {
@@ -262,9 +265,11 @@ class DecisionRule {
   double degrees_of_freedom_ = kExactly;
 };
 
-/// `simple`, `guard_band` or `conformance`.
-std::string_view word(DecisionRule::Kind kind);
-std::optional<DecisionRule::Kind> rule_from_word(std::string_view text);
+inline constexpr std::string_view kRuleWords[] = {"simple", "guard_band", "conformance"};
+constexpr std::string_view word(DecisionRule::Kind kind) { return word_of(kind, kRuleWords); }
+constexpr std::optional<DecisionRule::Kind> rule_from_word(std::string_view text) {
+  return enum_of<DecisionRule::Kind>(text, kRuleWords);
+}
 
 /// Whether a guard band on either side leaves no value that is good.
 bool has_no_acceptance(const DecisionRule& rule, Length tolerance);

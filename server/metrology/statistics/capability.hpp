@@ -70,9 +70,9 @@ enum class ProcessDistribution : std::uint8_t {
   Lognormal,
   Mixture
 };
-
-/// `normal`, `folded_normal`, `rayleigh`, `weibull`, `lognormal`, `mixture`.
-std::string_view word(ProcessDistribution name);
+constexpr std::string_view word(ProcessDistribution name) {
+  return word_of(name, {"normal", "folded_normal", "rayleigh", "weibull", "lognormal", "mixture"});
+}
 
 /// A distribution with the parameters that are most likely for the values.
 struct FittedDistribution {

@@ -151,10 +151,6 @@ std::int64_t parts_until(double level, double variance, double wear, double wand
 
 }  // namespace
 
-std::string_view word(CompensationState state) {
-  return word_of(state, {"propose", "wait", "unstable"});
-}
-
 Compensation propose_offset(std::span<const MadePart> parts, double half_tolerance, double cost) {
   Compensation found;
   found.reason = "fewer than six values";

@@ -10,8 +10,9 @@ struct MadePart {
 };
 
 enum class CompensationState : std::uint8_t { Propose, Wait, Unstable };
-/// `propose`, `wait`, `unstable`
-std::string_view word(CompensationState state);
+constexpr std::string_view word(CompensationState state) {
+  return word_of(state, {"propose", "wait", "unstable"});
+}
 
 /// The next correction of a machine, and how it was found.
 struct Compensation {

@@ -5,8 +5,6 @@
 namespace fitgauge::metrology {
 namespace {
 
-constexpr std::string_view kChartWords[] = {"i_mr", "xbar_r", "xbar_s", "ewma", "cusum"};
-
 constexpr double kWidth = 3;  ///< of the limits, in standard deviations of a point
 
 using Counts = std::span<const Wide>;
@@ -227,12 +225,6 @@ Result<Phase> phase_of(const Subgroups& data, const ChartPlan& plan) {
 }
 
 }  // namespace
-
-std::string_view word(ChartKind kind) { return word_of(kind, kChartWords); }
-
-std::optional<ChartKind> chart_kind_from_word(std::string_view text) {
-  return enum_of<ChartKind>(text, kChartWords);
-}
 
 Result<ControlCharts> make_charts(const Subgroups& data, const ChartPlan& plan) {
   const bool needs_groups = plan.kind == ChartKind::XbarR || plan.kind == ChartKind::XbarS;

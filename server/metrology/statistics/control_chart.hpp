@@ -148,10 +148,11 @@ inline constexpr double kLongestRun = 1e9;
 double cusum_run_length(double reference_value, double decision_interval);
 
 enum class ChartKind : std::uint8_t { IMr, XbarR, XbarS, Ewma, Cusum };
-
-/// `i_mr`, `xbar_r`, `xbar_s`, `ewma`, `cusum`.
-std::string_view word(ChartKind kind);
-std::optional<ChartKind> chart_kind_from_word(std::string_view text);
+inline constexpr std::string_view kChartWords[] = {"i_mr", "xbar_r", "xbar_s", "ewma", "cusum"};
+constexpr std::string_view word(ChartKind kind) { return word_of(kind, kChartWords); }
+constexpr std::optional<ChartKind> chart_kind_from_word(std::string_view text) {
+  return enum_of<ChartKind>(text, kChartWords);
+}
 
 /// Values in consecutive subgroups of one size; size 1: individual values.
 struct Subgroups {

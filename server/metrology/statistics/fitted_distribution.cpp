@@ -246,10 +246,6 @@ std::vector<FittedDistribution> candidates(const Places& places) {
 
 }  // namespace
 
-std::string_view word(ProcessDistribution name) {
-  return word_of(name, {"normal", "folded_normal", "rayleigh", "weibull", "lognormal", "mixture"});
-}
-
 double FittedDistribution::below(double x) const {
   const auto& [a, b, c, d, e] = parameters;
   switch (name) {

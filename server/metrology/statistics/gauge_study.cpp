@@ -6,8 +6,6 @@
 namespace fitgauge::metrology {
 namespace {
 
-constexpr std::string_view kMethods[] = {"anova", "average_range", "type3", "nested"};
-
 Error too_few(std::string message) { return {ErrorCode::StatisticsTooFew, std::move(message)}; }
 
 /// The means of the cells of part and operator, each of one reading or more. Where their numbers
@@ -322,14 +320,6 @@ GaugeStudy average_and_range(const Cells& s, std::size_t trials) {
 }
 
 }  // namespace
-
-std::optional<StudyMethod> study_method_from_word(std::string_view text) {
-  return enum_of<StudyMethod>(text, kMethods);
-}
-std::string_view word(StudyMethod method) { return word_of(method, kMethods); }
-std::string_view word(StudyModel model) {
-  return word_of(model, {"auto", "interaction", "pooled"});
-}
 
 Result<Type1Study> study_type1(const Decimals& values, const Exact& reference,
                                const Exact& tolerance, Type1Rule rule) {

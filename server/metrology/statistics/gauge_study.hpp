@@ -38,11 +38,16 @@ struct Readings {
 };
 
 enum class StudyMethod : std::uint8_t { Anova, AverageRange, Type3, Nested };
-std::optional<StudyMethod> study_method_from_word(std::string_view text);
-std::string_view word(StudyMethod method);
+inline constexpr std::string_view kStudyWords[] = {"anova", "average_range", "type3", "nested"};
+constexpr std::string_view word(StudyMethod method) { return word_of(method, kStudyWords); }
+constexpr std::optional<StudyMethod> study_method_from_word(std::string_view text) {
+  return enum_of<StudyMethod>(text, kStudyWords);
+}
 
 enum class StudyModel : std::uint8_t { Auto, Interaction, Pooled };
-std::string_view word(StudyModel model);
+constexpr std::string_view word(StudyModel model) {
+  return word_of(model, {"auto", "interaction", "pooled"});
+}
 
 /// `Auto` pools the interaction with the repeatability above this probability.
 inline constexpr double kPoolingProbability = 0.25;

@@ -146,10 +146,6 @@ bool are_settled(std::span<const MonteCarloResult> sequences, int digits) {
 
 }  // namespace
 
-std::string_view word(Distribution distribution) {
-  return word_of(distribution, {"normal", "rectangular", "triangular", "u_shaped", "t"});
-}
-
 std::optional<double> standard_uncertainty_of(Distribution distribution, double half_width) {
   switch (distribution) {
     case Distribution::Rectangular: return half_width / std::sqrt(3.0);

@@ -4,7 +4,9 @@ namespace fitgauge::metrology {
 
 /// The shapes of a contribution (JCGM 100, 4.3; JCGM 101, table 1). U-shaped is the arcsine.
 enum class Distribution : std::uint8_t { Normal, Rectangular, Triangular, UShaped, T };
-std::string_view word(Distribution distribution);
+constexpr std::string_view word(Distribution distribution) {
+  return word_of(distribution, {"normal", "rectangular", "triangular", "u_shaped", "t"});
+}
 
 /// The standard uncertainty of a half width; none for the shapes that have no width.
 std::optional<double> standard_uncertainty_of(Distribution distribution, double half_width);

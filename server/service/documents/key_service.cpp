@@ -8,7 +8,6 @@ namespace fitgauge::app {
 namespace {
 
 constexpr std::chrono::seconds kReloadInterval{1};
-constexpr std::array<std::string_view, 4> kRoles{"viewer", "operator", "admin", "station"};
 
 Result<store::ApiKey> create_key(Stores& stores, const std::string& name, Role role,
                                  const std::string& token, std::int64_t now_ns,
@@ -20,8 +19,6 @@ Result<store::ApiKey> create_key(Stores& stores, const std::string& name, Role r
 
 }  // namespace
 
-std::string_view word(Role role) { return kRoles.at(static_cast<std::size_t>(role) - 1); }
-
 bool may(Role role, Role needed) {
   switch (needed) {
     case Role::Viewer: return true;
@@ -31,8 +28,6 @@ bool may(Role role, Role needed) {
   }
   return role == Role::Admin;
 }
-
-std::optional<Role> role_from_word(std::string_view text) { return enum_of<Role>(text, kRoles, 1); }
 
 void log_key(Stores& stores, const std::string& name, std::int64_t now_ns, bool is_made) {
   const auto key = stores.keys.newest(name);

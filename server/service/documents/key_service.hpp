@@ -12,9 +12,11 @@ using store::Role;
 /// Whether `role` may do what `needed` may.
 bool may(Role role, Role needed);
 
-/// `viewer`, `operator`, `admin`, `station`.
-std::string_view word(Role role);
-std::optional<Role> role_from_word(std::string_view text);
+inline constexpr std::array<std::string_view, 4> kRoles{"viewer", "operator", "admin", "station"};
+constexpr std::string_view word(Role role) { return kRoles.at(static_cast<std::size_t>(role) - 1); }
+constexpr std::optional<Role> role_from_word(std::string_view text) {
+  return enum_of<Role>(text, kRoles, 1);
+}
 
 /// Revokes a key and logs the change. Used inside a write job. @errors NotFound.
 Result<void> revoke_key(Stores& stores, const std::string& name, std::int64_t now_ns);
