@@ -173,7 +173,7 @@ class WriterThread final : public Writer {
  public:
   /// Opens a session, so that a start fails if the database cannot be opened.
   /// @param check throws a StorageFailure if the session writes to a replaced database; called
-  /// before each transaction and once a second.
+  /// before each transaction, again in it if more jobs join it, and once a second.
   WriterThread(const OpenOptions& options, const Clock& clock, HealthMonitor& health,
                sql::OpenSession open, std::function<void()> check = {});
   WriterThread& operator=(WriterThread&&) = delete;  // neither copied nor moved

@@ -145,7 +145,8 @@ class IoThread;
 
 /// Collects the responses of its thread for I/O threads, and posts them at the end, to each thread
 /// at once. Use it in a thread that answers many requests together, because each single response
-/// would wake the I/O thread. At most one on a thread. Responders used with it are released when it ends.
+/// would wake the I/O thread. At most one on a thread. Responders used with
+/// it are released when it ends.
 class AnswerBatch {
  public:
   AnswerBatch();

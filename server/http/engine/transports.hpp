@@ -14,7 +14,8 @@ Result<std::shared_ptr<asio::ssl::context>> load_tls(const TlsOptions& options);
 
 /// A connection over TLS 1.2 or later. It has no session of OpenSSL (37 KB) before the client's
 /// first record is whole. OpenSSL works on the socket itself: Asio's stream keeps 68 KB of buffers
-/// for each connection, also for one that never ends its handshake. The program must ignore SIGPIPE.
+/// for each connection, also for one that never ends its handshake. The program must ignore
+/// SIGPIPE.
 class TlsConnection final : public Connection {
  public:
   TlsConnection(IoThread& thread, Peer peer, Socket socket,

@@ -76,7 +76,8 @@ std::string error_rows(std::string_view label, std::string_view what, const Foun
 }
 
 std::string error_rows(const AxisErrors& errors) {
-  constexpr std::string_view kKinds[][2] = {  // in the order of ErrorKind
+  constexpr std::string_view kKinds[][2] = {
+      // in the order of ErrorKind
       {"Location error", "the location error"},
       {"Direction error, turned around the axes, in degrees", "the direction error"},
       {"Error of the zero, turned around the axes, in degrees", "the error of the zero"}};
