@@ -66,12 +66,11 @@ void add_tuples(const TupleWriter& tuples, PairIndex::Node& index) {
 
 }  // namespace
 
-Source source_of(int kind) { return sql::value_of<Source>(kind / 8); }
 Verdict verdict_of(int kind) { return sql::value_of<Verdict>(kind % 8); }
 
 bool is_asked(const MeasurementFilter& filter, int kind) {
-  return (!filter.source || source_of(kind) == *filter.source) &&
-         (!filter.verdict || verdict_of(kind) == *filter.verdict);
+  return (!filter.source || kind / 8 == code_of(*filter.source)) &&
+         (!filter.verdict || kind % 8 == code_of(*filter.verdict));
 }
 
 AggregatedValue::AggregatedValue(const sql::Connection& connection)

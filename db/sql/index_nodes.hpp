@@ -23,7 +23,6 @@ struct FieldValue {
 
 /// Whether measurements of this kind (8 * source + verdict) are asked for.
 bool is_asked(const MeasurementFilter& filter, int kind);
-Source source_of(int kind);
 Verdict verdict_of(int kind);
 
 /// Statistics of the nodes of the index, without their blocks.

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "db/sql/index_nodes.hpp"
 #include "db/store/measurement_index.hpp"
 #include "db/store/measurement_statistics.hpp"
 #include "fixture.hpp"
@@ -143,7 +144,7 @@ struct Shop : Fixture {
   }
 
   std::string found(const MeasurementFilter& filter, TextField group_by) {
-    return *read([&](const Stores& stores) -> Result<std::string> {
+    const auto made = read([&](const Stores& stores) -> Result<std::string> {
       const auto groups = stores.measurements.summary(filter, group_by);
       if (!groups) return std::string("too many");
       std::string text;
@@ -153,6 +154,7 @@ struct Shop : Fixture {
       }
       return text;
     });
+    return made ? *made : made.error().message;
   }
 
   /// @param number of the filter: a field, the designation, none, or two or three fields
@@ -225,6 +227,17 @@ struct Shop : Fixture {
 };
 
 }  // namespace
+
+TEST_CASE("a kind that no row has is not asked for, and is no damage") {
+  const MeasurementFilter by_source{.source = Source::Gauge};
+  const MeasurementFilter by_verdict{.verdict = Verdict::Good, .source = std::nullopt};
+  for (const int kind : {0, 7, 24, 255}) {
+    CHECK_FALSE(is_asked(by_source, kind));
+    CHECK_FALSE(is_asked(by_verdict, kind));
+  }
+  CHECK(is_asked(by_source, 9));
+  CHECK(is_asked(by_verdict, 9));
+}
 
 TEST_CASE("a summary is what a pass over the rows gives, whatever the index holds of them") {
   const unsigned seed = std::random_device{}();
