@@ -116,7 +116,8 @@ void require_sound(const sql::Rows& rows, int column, const SealedTable& table);
 template <class T>
 T row_of(const sql::Rows& rows, const SealedTable& table) {
   int columns = 1;
-  if constexpr (std::is_aggregate_v<T>) columns = static_cast<int>(boost::pfr::tuple_size_v<T>);
+  if constexpr (std::is_aggregate_v<T> && !sql::kIsBytes<T>)
+    columns = static_cast<int>(boost::pfr::tuple_size_v<T>);
   require_sound(rows, columns, table);
   return sql::row_of<T>(rows);
 }

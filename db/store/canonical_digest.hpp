@@ -7,7 +7,6 @@ namespace fitgauge::store {
 /// SHA-256 over a list of values in an encoding that no two different lists share:
 ///   absent   00
 ///   integer  10 to 18: so many bytes less 10 follow, the shortest big-endian two's complement
-///            (enumerations by their code)
 ///   text     01, the number of bytes as an integer, the bytes
 ///   digest   its 32 bytes, at fixed places of the list
 /// Not thread-safe.
@@ -15,7 +14,7 @@ class CanonicalDigest {
  public:
   template <class T>
   void add(const T& value) {
-    if constexpr (std::is_integral_v<T> || std::is_enum_v<T>) {
+    if constexpr (std::is_integral_v<T>) {
       add_integer(static_cast<std::int64_t>(value));
     } else {
       add_text(value);

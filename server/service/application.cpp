@@ -261,7 +261,7 @@ Result<void> Application::backup(const std::filesystem::path& file) const {
   TRY(database_->backup(file));
   if (!checkpoint || !*checkpoint) return {};
   auto beside = file;
-  return replace_file(beside += ".checkpoint", **checkpoint, true);
+  return keep_file(beside += ".checkpoint", **checkpoint, true);
 }
 
 RevisionIntake Application::revision_intake(RevisionIntake::Tell tell) {

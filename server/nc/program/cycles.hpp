@@ -99,7 +99,8 @@ const CycleParameter* find_parameter(const CycleDescriptor& descriptor, QRef wri
 /// Another cycle of the same family with that name, or null; of two that which is written alike.
 const CycleDescriptor* other_cycle(const CycleDescriptor& cycle, std::string_view name);
 
-/// The cycle that a block or a sub-line names, settings included, or null. Not of GLOBAL DEF.
+/// The cycle that a block or a sub-line names, settings included, or null. GLOBAL DEF names no
+/// probing cycle.
 const CycleDescriptor* cycle_of(klartext::CycleFamily family, int number);
 
 /// The cycle of the probing library, or null.

@@ -45,6 +45,7 @@ std::vector<std::string> blank_faults(const Program& program, const klartext::Bl
 /// Whether the block has a fault, or may have one with values of the run.
 bool may_have_blank_fault(const Program& program, const klartext::Block& block);
 
+// system_addresses.cpp
 /// An ID of FN 18: SYSREAD, and its NR; none listed: the NR is a row.
 struct SystemGroup {
   int id = 0;

@@ -8,7 +8,8 @@ using Senses = std::uint64_t;
 
 /// The senses of a word in five languages, a bit each. A peg is a word for the outside that
 /// comments also use for its hole, a blank is not machined yet, the bottom is also the end of a
-/// way, to advance is to stop in advance, and a mode is a choice between ways to do it.
+/// way, to advance is to stop in advance, and a mode is a choice between ways to do it. Position is
+/// also positioning; chips are broken, and lateral is at the side.
 inline constexpr auto kSenses = [] {
   std::string_view rest =
       "inside peg outside circle rectangle width coordinate plane angle maximum minimum "

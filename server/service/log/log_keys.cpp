@@ -117,7 +117,7 @@ std::optional<tlog::VerifierKey> next_key_of(std::string_view text) {
   return key ? std::optional(*key) : std::nullopt;
 }
 
-Result<void> replace_file(const fs::path& file, std::string_view content, bool durably) {
+Result<void> keep_file(const fs::path& file, std::string_view content, bool durably) {
   return replace(file, content,
                  fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read, durably);
 }

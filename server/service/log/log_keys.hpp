@@ -48,10 +48,9 @@ std::string next_key_line(const tlog::VerifierKey& key);
 /// The key that a note's text hands over to, if it does.
 std::optional<tlog::VerifierKey> next_key_of(std::string_view text);
 
-/// Replaces a small file in one step. @param durably it is on disk when this returns.
-/// @errors StorageUnavailable.
-Result<void> replace_file(const std::filesystem::path& file, std::string_view content,
-                          bool durably);
+/// Replaces a small file of the data folder, or beside a backup, in one step; it belongs to the
+/// folder's owner. @param durably it is on disk when this returns. @errors StorageUnavailable.
+Result<void> keep_file(const std::filesystem::path& file, std::string_view content, bool durably);
 
 /// @errors StorageUnavailable if it exists and cannot be read. None if there is no file.
 Result<std::optional<std::string>> read_small_file(const std::filesystem::path& file);

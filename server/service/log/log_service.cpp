@@ -190,7 +190,7 @@ void LogService::sign() {
     const auto file = options_.directory /
                       fmt::format("{}.{:08x}", kCheckpointFile, signers_.front().verifier().id());
     signers_.resize(1, signers_.front());
-    auto written = replace_file(file, head->note, true);
+    auto written = keep_file(file, head->note, true);
     if (written) written = write_keys();
     tell("log_key_replaced", written ? file.string() : written.error().message);
   }
@@ -202,7 +202,7 @@ Result<void> LogService::keep(const TreeNames& tree, const std::string& note) co
   const auto health = database_.health();
   auto kept = health.state == store::HealthState::WritesFailing
                   ? Result<void>(Error{ErrorCode::StorageUnavailable, health.reason})
-                  : replace_file(options_.directory / tree.file, note, false);
+                  : keep_file(options_.directory / tree.file, note, false);
   if (!kept) tell("log_checkpoint_not_kept", kept.error().message);
   return kept;
 }

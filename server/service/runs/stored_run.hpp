@@ -38,8 +38,8 @@ struct RunOrder {
 };
 
 using RunState = store::RunStatus;
-inline constexpr std::size_t kRunStates =
-    7;  ///< without Cancelling, which the outside sees as running
+/// Without Cancelling, which the outside sees as running.
+inline constexpr auto kRunStates = static_cast<std::size_t>(RunState::Cancelling);
 
 /// Reads `queued`, `running`, `completed`, ...
 constexpr std::optional<RunState> run_state_from_word(std::string_view text) {
