@@ -7,6 +7,7 @@
 namespace fitgauge::http {
 namespace {
 
+constexpr std::string_view kRequestId = "X-Request-Id: ";
 constexpr std::string_view kGzipCoded = "Content-Encoding: gzip\r\n";
 
 std::string_view reason(int status) {
@@ -59,7 +60,7 @@ void append_field(std::string& out, std::string_view name, std::string_view valu
 
 /// Appends the fields that every answer has and its request decides, and ends the head.
 void end_head(std::string& out, std::string_view vary, const AnswerForm& form) {
-  out.append("X-Request-Id: ").append(form.request_id);
+  out.append(kRequestId).append(form.request_id);
   out.append("\r\nX-Content-Type-Options: nosniff\r\nCross-Origin-Resource-Policy: ");
   if (form.allowed_origin.empty()) {
     out.append("same-origin\r\n");
@@ -100,9 +101,12 @@ SentAnswer append_prepared(OutputQueue& out, const std::shared_ptr<const Prepare
   std::string& text = out.text();
   const std::size_t start = text.size();
   const bool packed = answer->is_packable && takes_packed(form.codings, answer->is_long);
+  const auto put = [&](std::string_view characters, std::size_t offset) {
+    characters.copy(text.data() + start + offset, characters.size());
+  };
   const auto append_head = [&](const PreparedHead& head) {
     text.append(head.text, 0, packed ? head.shared_size : head.text.size());
-    std::ranges::copy(date, text.begin() + static_cast<std::ptrdiff_t>(start + head.date_offset));
+    put(http::text(date), head.date_offset);
     if (packed) append_etag(text, packed_etag(answer->etag));
   };
   if (form.conditional && answer->status == 200 && !answer->etag.empty() &&
@@ -110,6 +114,12 @@ SentAnswer append_prepared(OutputQueue& out, const std::shared_ptr<const Prepare
     append_head(answer->not_modified);
     end_head(text, answer->vary, form);
     return {.status = 304, .keep_alive = form.keep_alive};
+  }
+  if (!packed && form.is_plain() && answer->body.size() <= OutputQueue::kLongBody) {
+    text.append(answer->plain);
+    put(http::text(date), answer->head.date_offset);
+    put(form.request_id, answer->id_offset);
+    return {.status = answer->status};
   }
   append_head(answer->head);
   const std::string_view body = packed ? answer->packed_body() : answer->body;
@@ -293,14 +303,19 @@ PreparedResponse::PreparedResponse(const Response& response, std::string packed)
       is_long(is_packable && body_of(response).size() > kPackedFrom),
       etag(response.etag),
       vary(vary_of(response, is_long)),
-      body(may_have_body(status) ? body_of(response) : std::string_view{}),
       packed_(std::move(packed)) {
   const HttpDate placeholder = format_http_date({});
+  if (may_have_body(status)) body = body_of(response);
   head.date_offset = append_status(head.text, status, placeholder);
   append_fields(head.text, response);
   head.shared_size = head.text.size();
   append_etag(head.text, etag);
   if (may_have_body(status)) append_content_length(head.text, body.size());
+  plain = head.text;
+  id_offset = plain.size() + kRequestId.size();
+  end_head(plain, vary, {.request_id = std::string_view(placeholder.data(), AnswerForm::kOwnId)});
+  plain += body;
+  body = std::string_view(plain).substr(plain.size() - body.size());
   if (status != 200 || etag.empty()) return;
   not_modified.date_offset = append_status(not_modified.text, 304, placeholder);
   append_not_modified_fields(not_modified.text, response);
@@ -317,7 +332,7 @@ std::string_view PreparedResponse::packed_body() const {
 
 std::size_t size_in_memory(const PreparedResponse& answer) {
   const std::size_t packed = answer.is_long ? answer.body.size() : 0;  // at most
-  return sizeof answer + answer.head.text.size() + answer.body.size() + packed +
+  return sizeof answer + answer.head.text.size() + answer.plain.size() + packed +
          answer.not_modified.text.size();
 }
 

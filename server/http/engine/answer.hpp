@@ -112,9 +112,12 @@ class PreparedResponse {
   const bool is_long;  ///< the gzip form is worth its making
   const std::string etag;
   const std::string vary;
-  const std::string body;
   PreparedHead head;
   PreparedHead not_modified;
+  /// The whole answer to a plain request: see AnswerForm::is_plain().
+  std::string plain;
+  std::size_t id_offset = 0;  ///< of its X-Request-Id
+  std::string_view body;      ///< the end of `plain`
 
   /// The body in gzip, made at the first call. @pre is_packable
   std::string_view packed_body() const;
@@ -142,6 +145,13 @@ struct AnswerForm {
   std::string_view request_id{};
   std::string_view allowed_origin{};  ///< the request's origin, if its page may read the answer
   bool varies_by_origin = false;
+
+  static constexpr std::size_t kOwnId = 16;  ///< characters of an id that the service gives
+  /// Whether the answer's head depends on nothing of the request but an id of this length.
+  bool is_plain() const {
+    return keep_alive && !http_1_0 && !head_only && !varies_by_origin &&
+           request_id.size() == kOwnId;
+  }
 };
 
 struct SentAnswer {

@@ -228,6 +228,27 @@ TEST_CASE("a kept answer has both forms") {
   }
 }
 
+TEST_CASE("a kept answer is the same whatever its request's id") {
+  TestServer server(sized_routes());
+  Client client = server.connect();
+  const std::string as_own(16, 'a');
+  for (const char* path : {"/kept", "/kept-long", "/kept-short", "/page"}) {
+    CAPTURE(path);
+    const auto of_id = [&](const std::string& id) {
+      return client.ask(get(path, "X-Request-Id: " + id + "\r\n"));
+    };
+    const auto whole = of_id(as_own);
+    const auto in_parts = of_id("b");
+    CHECK(whole->body == in_parts->body);
+    std::string head = whole->head;
+    head.replace(head.find(as_own), as_own.size(), "b");
+    // Between the two answers a second may end.
+    head.replace(head.find(whole->field("Date")), whole->field("Date").size(),
+                 in_parts->field("Date"));
+    CHECK(head == in_parts->head);
+  }
+}
+
 TEST_CASE("a streamed body is packed piece by piece") {
   TestServer server(sized_routes());
   Client client = server.connect();
