@@ -77,10 +77,10 @@ struct Outcome {
 /// Handlers return an expected failure; the error formatter makes the response.
 using SyncHandler = std::function<Result<Response>(const Request&)>;
 using AsyncHandler = std::function<void(const Request&, Responder)>;
-/// Answers most requests at once, and in one write with those before; `later` takes a request for
-/// which `now` returns nothing.
+/// Answers a request at once, and in one write with those before, unless it has to wait.
 struct EitherHandler {
-  std::function<std::optional<Result<Response>>(const Request&)> now;
+  std::function<bool(const Request&)> has_to_wait;
+  SyncHandler now;
   AsyncHandler later;
 };
 /// Handlers run on an I/O thread and must not block. Long work goes to a worker with its Responder.

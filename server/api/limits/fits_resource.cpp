@@ -240,11 +240,10 @@ http::EitherHandler answer_fit(const Routes& add, Designation designation_of) {
         const auto fit = TRY(find_fit(designation, tables));
         return tagged_json(fit_json(designation, fit, tables), etag_of(tables));
       });
-  const auto now = [now = from_tables.now](const Request& request) {
-    return request.query().empty() ? now(request) : std::nullopt;
-  };
-  return {now, [&services = add.services, designation_of, from_revision = from_tables.later](
-                   const Request& request, Responder responder) {
+  const auto has_query = [](const Request& request) { return !request.query().empty(); };
+  return {has_query, std::move(from_tables.now),
+          [&services = add.services, designation_of, from_revision = from_tables.later](
+              const Request& request, Responder responder) {
             if (asks_for_revision_alone(request))
               return from_revision(request, std::move(responder));
             const auto shared = share(std::move(responder));

@@ -31,10 +31,11 @@ Parameter revision_parameter() {
 
 http::EitherHandler of_revision(app::TableCatalog& tables, http::SyncHandler current,
                                 TableHandler make) {
-  return {.now = [current](const Request& request) -> std::optional<Result<Response>> {
-            if (request.has("revision")) return std::nullopt;
-            return current(request);
-          },
+  return {.has_to_wait =
+              [](const Request& request) {
+                return !request.query().empty() && request.has("revision");
+              },
+          .now = std::move(current),
           .later =
               [&tables, make](const Request& request, Responder responder) {
                 tables_of(tables, request,

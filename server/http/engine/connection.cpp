@@ -144,10 +144,10 @@ bool Connection::open_exchange() {
 
 void Connection::run_handler() {
   phase_ = Phase::InHandler;
+  if (exchange_.has_to_wait()) return exchange_.run_later(Responder(shared_from_this()));
   auto result = exchange_.run_now();
-  if (!result) return exchange_.run_later(Responder(shared_from_this()));
-  if (!*result) return answer(exchange_.error_response(result->error()));
-  answer(std::move(**result));
+  if (!result) return answer(exchange_.error_response(result.error()));
+  answer(std::move(*result));
 }
 
 void Connection::answer(Response&& response) {

@@ -17,6 +17,14 @@ bool is_request_id(std::string_view text) {
   });
 }
 
+using HexPair = std::array<char, 2>;
+constexpr auto kHexPairs = [] {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::array<HexPair, 256> pairs{};
+  for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = {kDigits[i / 16], kDigits[i % 16]};
+  return pairs;
+}();
+
 Response with_allow(Response response, std::string allow) {
   response.prepared = nullptr;
   return std::move(response).with("Allow", std::move(allow));
@@ -44,8 +52,8 @@ void Exchange::take(RequestHead& head, std::uint64_t id) {
   request_.head_ = &head;
   request_.peer_ = &peer_;
   request_.id_ = id;
-  for (std::size_t i = request_.own_id_.size(); i-- > 0; id >>= 4)
-    request_.own_id_[i] = "0123456789abcdef"[id & 0xf];
+  for (std::size_t i = request_.own_id_.size(); i > 0; id >>= 8)
+    std::memcpy(&request_.own_id_[i -= 2], &kHexPairs[id & 0xff], 2);
   request_.method_ = method_named(head.method);
   if (head.has_request_id) {
     const std::string_view given = head.find("X-Request-Id").value_or("");
@@ -321,13 +329,18 @@ AnswerForm Exchange::form(bool keep_alive) const {
   return form;
 }
 
-std::optional<Result<Response>> Exchange::run_now() {
+bool Exchange::has_to_wait() const {
   const Handler& handler = request_.route_->handler;
+  const auto* const either = std::get_if<EitherHandler>(&handler);
+  return either == nullptr ? std::holds_alternative<AsyncHandler>(handler)
+                           : either->has_to_wait(request_);
+}
+
+Result<Response> Exchange::run_now() {
+  const Handler& handler = request_.route_->handler;
+  const auto* const either = std::get_if<EitherHandler>(&handler);
   try {
-    if (const auto* const sync = std::get_if<SyncHandler>(&handler)) return (*sync)(request_);
-    if (const auto* const either = std::get_if<EitherHandler>(&handler))
-      return either->now(request_);
-    return std::nullopt;
+    return (either == nullptr ? std::get<SyncHandler>(handler) : either->now)(request_);
   } catch (const std::exception& error) {
     return internal_error(error.what());
   }

@@ -132,9 +132,10 @@ class Exchange {
     request_.body_ = body.text.empty() ? FileText(std::string_view(kNothing, 0)) : body;
   }
 
-  /// The result of a handler that answers at once, or the answer to its exception; none if it
-  /// answers later: then call run_later().
-  std::optional<Result<Response>> run_now();
+  /// Whether the request's handler answers later: call run_later(), otherwise run_now().
+  bool has_to_wait() const;
+  /// The handler's result, or the answer to its exception.
+  Result<Response> run_now();
   void run_later(Responder responder);
 
   AnswerForm form(bool keep_alive) const;

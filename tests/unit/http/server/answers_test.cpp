@@ -39,12 +39,11 @@ Route fast() {
 Route either(Worker& worker) {
   Route route = slow(worker);
   route.pattern = "/either/{n}";
-  const auto now = [](const Request& request) -> std::optional<Result<Response>> {
-    const std::string n(*request.text("n"));
-    if ((n.back() - '0') % 2 != 0) return std::nullopt;
-    return text("fast " + n);
+  const auto is_odd = [](const Request& request) {
+    return (request.text("n")->back() - '0') % 2 != 0;
   };
-  route.handler = EitherHandler{now, std::get<AsyncHandler>(route.handler)};
+  route.handler = EitherHandler{is_odd, std::get<SyncHandler>(fast().handler),
+                                std::get<AsyncHandler>(route.handler)};
   return route;
 }
 
