@@ -80,9 +80,11 @@ Result<std::optional<Response>> Guard::operator()(Request& request,
   if (access == "public") return std::optional<Response>();
   if (request.is_health_only())
     return Error{ErrorCode::Forbidden, "this port answers only /livez and /readyz"};
-  const app::Role needed =
-      app::role_from_word(access).value_or(access == "open" ? app::Role::Viewer : app::Role::Admin);
-  if (closed_ && is_write(request.method()) && needed != app::Role::Viewer) {
+  const auto needed = [&] {
+    return app::role_from_word(access).value_or(access == "open" ? app::Role::Viewer
+                                                                 : app::Role::Admin);
+  };
+  if (closed_ && is_write(request.method()) && needed() != app::Role::Viewer) {
     if (auto why = closed_()) return *std::move(why);
   }
   const auto token = token_of(request);
@@ -108,9 +110,9 @@ Result<std::optional<Response>> Guard::operator()(Request& request,
                  "send a key: `Authorization: Bearer fg_…`; an administrator creates keys with "
                  "`fitgauged key create`"};
   }
-  if (!app::may(caller->role, needed)) {
+  if (!app::may(caller->role, needed())) {
     return Error::of(ErrorCode::Forbidden, "the key {} has the role {}; this needs the role {}",
-                     caller->name, app::word(caller->role), app::word(needed));
+                     caller->name, app::word(caller->role), app::word(needed()));
   }
   return std::optional<Response>();
 }
