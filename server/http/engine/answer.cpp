@@ -1,6 +1,7 @@
 #include "http/engine/answer.hpp"
 
 #include <fmt/chrono.h>
+#include <boost/beast/http/status.hpp>
 
 #include "base/gzip.hpp"
 
@@ -10,35 +11,13 @@ namespace {
 constexpr std::string_view kRequestId = "X-Request-Id: ";
 constexpr std::string_view kGzipCoded = "Content-Encoding: gzip\r\n";
 
+/// As RFC 9110 has it: Beast has two phrases from before.
 std::string_view reason(int status) {
-  constexpr std::array<std::pair<int, std::string_view>, 23> kReasons{{
-      {200, "OK"},
-      {201, "Created"},
-      {202, "Accepted"},
-      {204, "No Content"},
-      {304, "Not Modified"},
-      {400, "Bad Request"},
-      {401, "Unauthorized"},
-      {403, "Forbidden"},
-      {404, "Not Found"},
-      {405, "Method Not Allowed"},
-      {406, "Not Acceptable"},
-      {408, "Request Timeout"},
-      {409, "Conflict"},
-      {411, "Length Required"},
-      {412, "Precondition Failed"},
-      {413, "Content Too Large"},
-      {414, "URI Too Long"},
-      {415, "Unsupported Media Type"},
-      {417, "Expectation Failed"},
-      {422, "Unprocessable Content"},
-      {431, "Request Header Fields Too Large"},
-      {500, "Internal Server Error"},
-      {503, "Service Unavailable"},
-  }};
-  const auto found =
-      std::ranges::find_if(kReasons, [&](const auto& entry) { return entry.first == status; });
-  return found == kReasons.end() ? std::string_view{} : found->second;
+  if (status == 413) return "Content Too Large";
+  if (status == 422) return "Unprocessable Content";
+  const auto phrase = boost::beast::http::obsolete_reason(
+      boost::beast::http::int_to_status(static_cast<unsigned>(status)));
+  return {phrase.data(), phrase.size()};
 }
 
 /// Written for every response: parsing a format string would cost more than the number.
