@@ -3,6 +3,8 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 
+#include <boost/asio/ip/network_v6.hpp>
+
 #include "base/folder.hpp"
 
 namespace fitgauge {
@@ -22,66 +24,48 @@ std::optional<std::chrono::seconds> retry_after(std::string_view line) {
 namespace fitgauge::http_client {
 namespace {
 
-using Address6 = std::array<std::uint8_t, 16>;
+namespace ip = boost::asio::ip;
 
-struct Network {
-  Address6 first;
-  int bits;
+constexpr const char* kPrivate[] = {
+    "::ffff:0.0.0.0/104",      // this network
+    "::ffff:10.0.0.0/104",     // private
+    "::ffff:100.64.0.0/106",   // shared between providers
+    "::ffff:127.0.0.0/104",    // loopback
+    "::ffff:169.254.0.0/112",  // link-local
+    "::ffff:172.16.0.0/108",   // private
+    "::ffff:192.0.0.0/120",    // protocols
+    "::ffff:192.168.0.0/112",  // private
+    "::ffff:198.18.0.0/111",   // benchmarks
+    "::ffff:224.0.0.0/99",     // multicast, reserved, broadcast
+    "fc00::/7",                // unique local
+    "fe80::/10",               // link-local
+    "fec0::/10",               // site-local, deprecated
+    "ff00::/8",                // multicast
+    "100::/64",                // discard
+    "64:ff9b:1::/48",          // translation inside of a network
 };
 
-constexpr Address6 mapped(std::uint32_t address) {
-  Address6 bytes{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF};
-  for (std::size_t i = 16; i-- > 12; address >>= 8) bytes[i] = static_cast<std::uint8_t>(address);
-  return bytes;
+/// Networks, and the place of an address of IPv4 in an address of each.
+constexpr std::pair<const char*, std::size_t> kEmbedded4[] = {
+    {"::/96", 12},         // ::, ::1 and ::a.b.c.d
+    {"64:ff9b::/96", 12},  // translated
+    {"2002::/16", 2},      // 6to4
+};
+
+bool is_in(const ip::address_v6& address, const char* network) {
+  const auto of = ip::make_network_v6(network);
+  return ip::network_v6(address, of.prefix_length()).canonical() == of;
 }
 
-constexpr Network kPrivate[] = {
-    {mapped(0x00000000), 96 + 8},                // this network
-    {mapped(0x0A000000), 96 + 8},                // private
-    {mapped(0x64400000), 96 + 10},               // shared between providers
-    {mapped(0x7F000000), 96 + 8},                // loopback
-    {mapped(0xA9FE0000), 96 + 16},               // link-local
-    {mapped(0xAC100000), 96 + 12},               // private
-    {mapped(0xC0000000), 96 + 24},               // protocols
-    {mapped(0xC0A80000), 96 + 16},               // private
-    {mapped(0xC6120000), 96 + 15},               // benchmarks
-    {mapped(0xE0000000), 96 + 3},                // multicast, reserved, broadcast
-    {{0xFC}, 7},                                 // unique local
-    {{0xFE, 0x80}, 10},                          // link-local
-    {{0xFE, 0xC0}, 10},                          // site-local, deprecated
-    {{0xFF}, 8},                                 // multicast
-    {{0x01, 0x00}, 64},                          // discard
-    {{0x00, 0x64, 0xFF, 0x9B, 0x00, 0x01}, 48},  // translation inside of a network
-};
-
-struct Embedded4 {
-  Network network;
-  std::size_t offset;  ///< of the address of IPv4
-};
-
-constexpr Embedded4 kEmbedded4[] = {
-    {{{}, 96}, 12},                        // ::, ::1 and ::a.b.c.d
-    {{{0x00, 0x64, 0xFF, 0x9B}, 96}, 12},  // translated
-    {{{0x20, 0x02}, 16}, 2},               // 6to4
-};
-
-bool is_in(const Address6& address, const Network& network) {
-  for (int bit = 0; bit < network.bits; ++bit) {
-    const auto byte = static_cast<std::size_t>(bit / 8);
-    const int mask = 0x80 >> bit % 8;
-    if (((address[byte] ^ network.first[byte]) & mask) != 0) return false;
-  }
-  return true;
-}
-
-bool is_private(const Address6& address) {
-  const auto has = [&address](const Network& network) { return is_in(address, network); };
+bool is_private(const ip::address_v6& address) {
+  const auto has = [&address](const char* network) { return is_in(address, network); };
   if (std::ranges::any_of(kPrivate, has)) return true;
-  for (const Embedded4& embedded : kEmbedded4) {
-    if (!has(embedded.network)) continue;
-    std::uint32_t inner = 0;
-    for (std::size_t i = 0; i < 4; ++i) inner = inner << 8 | address.at(embedded.offset + i);
-    return is_private(mapped(inner));
+  for (const auto& [network, offset] : kEmbedded4) {
+    if (!has(network)) continue;
+    const auto bytes = address.to_bytes();
+    ip::address_v4::bytes_type inner;
+    std::copy_n(bytes.data() + offset, inner.size(), inner.begin());
+    return is_private(ip::make_address_v6(ip::v4_mapped, ip::address_v4(inner)));
   }
   return false;
 }
@@ -144,14 +128,15 @@ bool is_private_address(const sockaddr& address) {
   if (address.sa_family == AF_INET) {
     sockaddr_in v4;
     std::memcpy(&v4, &address, sizeof v4);
-    return is_private(mapped(ntohl(v4.sin_addr.s_addr)));
+    const ip::address_v4 read(ntohl(v4.sin_addr.s_addr));
+    return is_private(ip::make_address_v6(ip::v4_mapped, read));
   }
   if (address.sa_family != AF_INET6) return true;
   sockaddr_in6 v6;
   std::memcpy(&v6, &address, sizeof v6);
-  Address6 bytes;
+  ip::address_v6::bytes_type bytes;
   std::memcpy(bytes.data(), &v6.sin6_addr, bytes.size());
-  return is_private(bytes);
+  return is_private(ip::address_v6(bytes));
 }
 
 /// The resolved address counts, not the name: a name may change its mind between two looks.
