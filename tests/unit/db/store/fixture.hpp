@@ -83,7 +83,16 @@ struct IdRange {
 inline Digest hash_of(const MeasurementRow& row) {
   CanonicalDigest digest;
   digest.add(row.id);
-  for_each_field(row, [&](std::string_view /*column*/, const auto& value) { digest.add(value); });
+  for_each_field(row, [&](std::string_view /*column*/, const auto& value) {
+    using Value = std::remove_cvref_t<decltype(value)>;
+    if constexpr (std::is_enum_v<Value>) {
+      digest.add(code_of(value));
+    } else if constexpr (std::is_same_v<Value, std::optional<Quantity>>) {
+      digest.add(value ? std::optional(code_of(*value)) : std::nullopt);
+    } else {
+      digest.add(value);
+    }
+  });
   return digest.finish();
 }
 
