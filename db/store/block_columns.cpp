@@ -158,32 +158,32 @@ std::string designation_key(std::int64_t nominal_nm, std::string_view tolerance_
 
 RowSet RowSet::all() {
   RowSet set;
-  set.bits_.fill(0xFF);
+  set.rows_.set();
   return set;
 }
 
+static_assert(std::endian::native == std::endian::little, "a bitset has its first rows first");
+using BitsOfRows = std::array<char, kBlock / 8>;
+
 std::string RowSet::encode() const {
-  using Word = std::uint64_t;
-  const auto words = std::bit_cast<std::array<Word, sizeof(Bits) / sizeof(Word)>>(bits_);
-  std::string rows;
-  for (std::size_t word = 0; word < words.size() && rows.size() < bits_.size(); ++word) {
-    if (words[word] == 0) continue;  // usually all but one: each row has its part id
-    for (std::size_t i = word * sizeof(Word); i < (word + 1) * sizeof(Word); ++i) {
-      for (unsigned left = bits_[i]; left != 0; left &= left - 1) {
-        const std::size_t row = 8 * i + static_cast<std::size_t>(std::countr_zero(left));
-        rows += static_cast<char>(row & 0xFFU);
-        rows += static_cast<char>(row >> 8U);
-      }
-    }
+  if (2 * rows_.count() >= sizeof(BitsOfRows)) {
+    const auto bits = std::bit_cast<BitsOfRows>(rows_);
+    return {bits.begin(), bits.end()};
   }
-  if (rows.size() < bits_.size()) return rows;
-  return {bits_.begin(), bits_.end()};
+  std::string rows;
+  for (std::size_t row = rows_._Find_first(); row < kBlockRows; row = rows_._Find_next(row)) {
+    rows += static_cast<char>(row & 0xFFU);
+    rows += static_cast<char>(row >> 8U);
+  }
+  return rows;
 }
 
 RowSet RowSet::decode(std::string_view bytes) {
   RowSet set;
-  if (bytes.size() == set.bits_.size()) {
-    std::ranges::copy(bytes, set.bits_.begin());
+  if (bytes.size() == sizeof(BitsOfRows)) {
+    BitsOfRows bits;
+    std::ranges::copy(bytes, bits.begin());
+    set.rows_ = std::bit_cast<std::bitset<kBlock>>(bits);
     return set;
   }
   const auto byte = [&](std::size_t i) -> unsigned { return static_cast<unsigned char>(bytes[i]); };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bitset>
+
 #include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store {
@@ -153,13 +155,11 @@ std::string designation_key(std::int64_t nominal_nm, std::string_view tolerance_
 class RowSet {
  public:
   /// @pre 0 <= row < kBlock, here and below
-  void add(std::int64_t row) { at(row) = static_cast<std::uint8_t>(at(row) | bit(row)); }
-  bool contains(std::int64_t row) const {
-    return (bits_[static_cast<std::size_t>(row) / 8] & bit(row)) != 0;
-  }
-  bool empty() const { return bits_ == Bits{}; }
+  void add(std::int64_t row) { rows_.set(static_cast<std::size_t>(row)); }
+  bool contains(std::int64_t row) const { return rows_[static_cast<std::size_t>(row)]; }
+  bool empty() const { return rows_.none(); }
   RowSet& operator&=(const RowSet& other) {
-    for (std::size_t i = 0; i < bits_.size(); ++i) bits_[i] &= other.bits_[i];
+    rows_ &= other.rows_;
     return *this;
   }
 
@@ -170,12 +170,7 @@ class RowSet {
   static RowSet decode(std::string_view bytes);
 
  private:
-  using Bits = std::array<std::uint8_t, kBlock / 8>;
-
-  static constexpr unsigned bit(std::int64_t row) { return 1U << static_cast<unsigned>(row % 8); }
-  std::uint8_t& at(std::int64_t row) { return bits_[static_cast<std::size_t>(row) / 8]; }
-
-  Bits bits_{};
+  std::bitset<kBlock> rows_;
 };
 
 }  // namespace fitgauge::store
