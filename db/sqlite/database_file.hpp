@@ -95,7 +95,6 @@ class Checkpointer {
  public:
   explicit Checkpointer(const OpenOptions& options);
   Checkpointer& operator=(Checkpointer&&) = delete;  // neither copied nor moved
-  ~Checkpointer();
 
   // By the writer.
 
@@ -109,15 +108,14 @@ class Checkpointer {
  private:
   enum class State : std::uint8_t { Idle, Running, Finished };
 
-  void run();
+  void run(const std::stop_token& stop);
   void checkpoint();
 
   const OpenOptions options_;
   int pages_ = 0;  ///< in the log; the writer's
   std::mutex mutex_;
-  std::condition_variable changed_;
+  std::condition_variable_any changed_;
   State state_ = State::Idle;
-  bool stopping_ = false;
   Thread thread_;
 };
 
@@ -136,14 +134,10 @@ class Scrub {
   void run(const std::stop_token& stop, bool check_file_first);
   void check_file(const std::stop_token& stop);
   void pass(const std::stop_token& stop);
-  /// @returns false if it was stopped.
-  bool rest(const std::stop_token& stop, std::chrono::nanoseconds time);
 
   const OpenOptions& options_;
   const Clock& clock_;
   HealthMonitor& health_;
-  std::mutex mutex_;
-  std::condition_variable_any stopped_;
   Thread thread_;
 };
 

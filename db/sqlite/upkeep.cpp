@@ -21,16 +21,7 @@ constexpr int kRest = 15;
 }  // namespace
 
 Checkpointer::Checkpointer(const OpenOptions& options)
-    : options_(options), thread_("the checkpointer", [this](const auto&) { run(); }) {}
-
-Checkpointer::~Checkpointer() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-  }
-  changed_.notify_all();
-  thread_.stop();
-}
+    : options_(options), thread_("the checkpointer", [this](const auto& stop) { run(stop); }) {}
 
 void Checkpointer::install(sqlite::Connection& writer) {
   const auto count = [](void* pages, sqlite3*, const char*, int in_log) {
@@ -59,11 +50,10 @@ void Checkpointer::after_commit(sqlite::Connection& writer) {
   }
 }
 
-void Checkpointer::run() {
+void Checkpointer::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  while (true) {
-    changed_.wait(lock, [this] { return stopping_ || state_ == State::Running; });
-    if (stopping_) return;
+  while (changed_.wait(lock, stop, [this] { return state_ == State::Running; }) &&
+         !stop.stop_requested()) {
     lock.unlock();
     try {
       checkpoint();
@@ -97,7 +87,7 @@ void Scrub::run(const std::stop_token& stop, bool check_file_first) {
   if (check_file_first) check_file(stop);
   do {
     pass(stop);
-  } while (rest(stop, options_.scrub_interval));
+  } while (wait_unless_stopped(stop, options_.scrub_interval));
 }
 
 void Scrub::check_file(const std::stop_token& stop) {
@@ -109,7 +99,7 @@ void Scrub::check_file(const std::stop_token& stop) {
 void Scrub::pass(const std::stop_token& stop) {
   constexpr std::chrono::milliseconds kBetweenGlances{5};
   while (options_.is_open && !options_.is_open()) {
-    if (!rest(stop, kBetweenGlances)) return;
+    if (!wait_unless_stopped(stop, kBetweenGlances)) return;
   }
   try {
     sqlite::Session session(options_, clock_, sqlite::Mode::Read);
@@ -117,7 +107,7 @@ void Scrub::pass(const std::stop_token& stop) {
     using Time = std::chrono::steady_clock;
     auto begin = Time::now();
     const auto go_on = [&] {
-      const bool goes_on = rest(stop, kRest * (Time::now() - begin));
+      const bool goes_on = wait_unless_stopped(stop, kRest * (Time::now() - begin));
       begin = Time::now();
       return goes_on;
     };
@@ -133,12 +123,6 @@ void Scrub::pass(const std::stop_token& stop) {
       options_.job_threw({ErrorCode::Internal, fmt::format("the scrub failed: {}", bug.what())});
     }
   }
-}
-
-bool Scrub::rest(const std::stop_token& stop, std::chrono::nanoseconds time) {
-  std::unique_lock lock(mutex_);
-  stopped_.wait_for(lock, stop, time, [] { return false; });
-  return !stop.stop_requested();
 }
 
 }  // namespace fitgauge::store

@@ -44,7 +44,7 @@ Thread::Thread(std::string_view place, Body body)
   show_as(thread_.native_handle(), place);
 }
 
-bool wait_unless_stopped(const std::stop_token& stop, std::chrono::milliseconds time) {
+bool wait_unless_stopped(const std::stop_token& stop, std::chrono::nanoseconds time) {
   std::mutex mutex;
   std::condition_variable_any over;
   std::unique_lock lock(mutex);

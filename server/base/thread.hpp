@@ -30,7 +30,7 @@ bool guarded(std::string_view place, Function&& function) noexcept {
 }
 
 /// Waits for this time, or until a stop is requested. @returns false after a stop.
-bool wait_unless_stopped(const std::stop_token& stop, std::chrono::milliseconds time);
+bool wait_unless_stopped(const std::stop_token& stop, std::chrono::nanoseconds time);
 
 /// A thread that survives exceptions: an exception is reported as a bug at `place`, and the body
 /// begins again after a short rest, until it returns or a stop is requested. All threads are
