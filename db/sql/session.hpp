@@ -184,7 +184,7 @@ class WriterThread final : public Writer {
 
  private:
   using WriteJob = Job<Stores>;
-  using Jobs = JobQueue<WriteJob>::Items;
+  using Jobs = Queue::Items;
 
   void run();
   void commit(Jobs& jobs);

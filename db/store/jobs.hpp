@@ -1,7 +1,5 @@
 #pragma once
 
-#include <future>
-
 #include "base/allowance.hpp"
 #include "base/histogram.hpp"
 #include "base/thread.hpp"
@@ -81,76 +79,63 @@ class CallableJob final : public Job<Stores> {
   std::optional<Outcome> outcome_;
 };
 
-/// Submits `work` to `queue` and waits for its outcome. Not for I/O threads or the thread of the
-/// queue. The memory of the outcome counts for the calling thread; the job's memory does not.
-template <class Queue, class Stores, class Work>
-auto wait_for(Queue& queue, Work work) {
-  using Outcome = OutcomeOf<Work, Stores>;
-  const std::int64_t before = thread_memory();
-  std::int64_t taken = 0;
-  auto outcome = [&] {
-    std::promise<Outcome> promise;
-    auto future = promise.get_future();
-    queue.submit(
-        [&work, &taken](Stores& stores) {
-          const std::int64_t begun = thread_memory();
-          Outcome made = outcome_of(work, stores);
-          taken = thread_memory() - begun;
-          hand_over_memory(-taken);
-          return made;
-        },
-        [&promise](Outcome made) { promise.set_value(std::move(made)); });
-    return future.get();
-  }();
-  hand_over_memory(before + taken - thread_memory());
-  return outcome;
-}
-
-template <class Job>
-using JobQueue = BoundedQueue<std::unique_ptr<Job>>;
-
-/// Queues a job, or refuses it on this thread when it finds no place.
-template <class Job>
-void enqueue_or_refuse(JobQueue<Job>& queue, std::unique_ptr<Job> job) {
-  using Refusal = typename JobQueue<Job>::Refusal;
-  const auto refusal = queue.push(std::move(job));
-  if (refusal == Refusal::Closed)
-    job->refuse({ErrorCode::ShuttingDown, "the service is shutting down"});
-  if (refusal == Refusal::Full)
-    job->refuse({ErrorCode::StorageBusy, "the storage is busy: try again soon"});
-}
-
-/// A few threads that read, each on its own read-only connection. A job sees one consistent state
-/// of the database. Long lists are read page by page, one job a page, so that a slow client keeps
-/// neither a thread nor an old state of the file.
-///
-/// Thread-safe. After a failed read the thread opens its connection again.
-class ReadPool {
+/// Jobs that wait for the threads that run them, each on its own connection. Thread-safe.
+template <class Stores>
+class WaitingJobs {
  public:
-  /// Queues `work`, called with `const Stores&` on a reader thread: it returns a Result, a value or
-  /// nothing. `done`: void(Result<T>) is called exactly once, on the reader thread, or on the
-  /// calling thread when refused at once.
-  /// @errors StorageBusy, ShuttingDown, StorageUnavailable, StorageCorrupt; Internal when it threw.
+  /// Queues `work`, called with `Stores&` on such a thread: it returns a Result, a value or
+  /// nothing. `done`: void(Result<T>) is called exactly once, on that thread, or on the calling
+  /// thread if the job is refused at once.
+  /// @errors StorageBusy if the queue is full; ShuttingDown; StorageUnavailable; StorageCorrupt;
+  ///   Internal if the work throws.
   template <class Work, class Done>
   void submit(Work work, Done done) {
-    enqueue_or_refuse<Job<const Stores>>(
-        queue_,
-        std::make_unique<CallableJob<const Stores, Work, Done>>(std::move(work), std::move(done)));
+    std::unique_ptr<Job<Stores>> job =
+        std::make_unique<CallableJob<Stores, Work, Done>>(std::move(work), std::move(done));
+    const auto refusal = queue_.push(std::move(job));
+    if (refusal == Queue::Refusal::Closed)
+      job->refuse({ErrorCode::ShuttingDown, "the service is shutting down"});
+    if (refusal == Queue::Refusal::Full)
+      job->refuse({ErrorCode::StorageBusy, "the storage is busy: try again soon"});
   }
 
-  /// Submits and waits. Not for I/O threads, nor for a reader thread itself.
+  /// Submits and waits for the outcome. Not for I/O threads or the threads that run jobs. The
+  /// memory of the outcome counts for the calling thread; the job's memory does not.
   template <class Work>
   auto wait(Work work) {
-    return wait_for<ReadPool, const Stores>(*this, std::move(work));
+    using Outcome = OutcomeOf<Work, Stores>;
+    const std::int64_t before = thread_memory();
+    std::int64_t taken = 0;
+    auto outcome = wait_for_result<typename Outcome::value_type>([&](auto done) {
+      submit(
+          [&work, &taken](Stores& stores) {
+            const std::int64_t begun = thread_memory();
+            Outcome made = outcome_of(work, stores);
+            taken = thread_memory() - begun;
+            hand_over_memory(-taken);
+            return made;
+          },
+          std::move(done));
+    });
+    hand_over_memory(before + taken - thread_memory());
+    return outcome;
   }
 
   std::size_t queued() const { return queue_.size(); }  ///< jobs that wait
 
  protected:
-  explicit ReadPool(std::size_t limit) : queue_(limit) {}
+  using Queue = BoundedQueue<std::unique_ptr<Job<Stores>>>;
 
-  JobQueue<Job<const Stores>> queue_;
+  explicit WaitingJobs(std::size_t limit) : queue_(limit) {}
+
+  Queue queue_;
 };
+
+/// A few threads that read, each on its own read-only connection. A job sees one consistent state
+/// of the database. Long lists are read page by page, one job a page, so that a slow client keeps
+/// neither a thread nor an old state of the file. After a failed read the thread opens its
+/// connection again.
+using ReadPool = WaitingJobs<const Stores>;
 
 /// Counts of the writer since the start, for metrics. Written by the writer's thread, read by
 /// any.
@@ -171,20 +156,8 @@ struct WriterCounters {
 /// Thread-safe. After a failed commit every job of its batch is refused with StorageUnavailable;
 /// unless the disk was full, the connection is opened again, and nothing is delivered before a
 /// commit succeeded.
-class Writer {
+class Writer : public WaitingJobs<Stores> {
  public:
-  /// Queues `work`, called with `Stores&` on the writer thread: it returns a Result, a value or
-  /// nothing. If it returns an Error, only its own changes are reverted. `done`: void(Result<T>) is
-  /// called exactly once: on the writer thread after the commit, or on the calling thread if the
-  /// job is refused at once.
-  /// @errors StorageBusy if the queue is full; ShuttingDown; StorageUnavailable; StorageCorrupt;
-  ///   Internal if the work throws.
-  template <class Work, class Done>
-  void submit(Work work, Done done) {
-    enqueue_or_refuse<Job<Stores>>(queue_, std::make_unique<CallableJob<Stores, Work, Done>>(
-                                               std::move(work), std::move(done)));
-  }
-
   /// Queues `work`: Result<StoredAnswer>(Stores&), run at most once for the request's key. A
   /// response with a status 2xx is stored in the transaction of the work, and a repeat returns it
   /// with `replayed` set.
@@ -205,27 +178,18 @@ class Writer {
            });
   }
 
-  /// Submits and waits. Not for I/O threads, nor for the writer thread itself.
-  template <class Work>
-  auto wait(Work work) {
-    return wait_for<Writer, Stores>(*this, std::move(work));
-  }
+  /// As wait(), for submit_once().
   template <class Work>
   Result<StoredAnswer> wait_once(IdempotentRequest request, Work work) {
-    std::promise<Result<StoredAnswer>> promise;
-    auto future = promise.get_future();
-    submit_once(std::move(request), std::move(work),
-                [&promise](Result<StoredAnswer> answer) { promise.set_value(std::move(answer)); });
-    return future.get();
+    return wait_for_result<StoredAnswer>(
+        [&](auto done) { submit_once(std::move(request), std::move(work), std::move(done)); });
   }
 
-  std::size_t queued() const { return queue_.size(); }  ///< jobs that wait
   const WriterCounters& counters() const { return counters_; }
 
  protected:
-  explicit Writer(std::size_t limit) : queue_(limit) {}
+  using WaitingJobs::WaitingJobs;
 
-  JobQueue<Job<Stores>> queue_;
   WriterCounters counters_;
 
  private:
