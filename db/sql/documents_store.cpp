@@ -35,7 +35,8 @@ std::string select_notes(const sql::Connection& c, std::string_view where) {
 
 }  // namespace
 
-struct DocumentsStore::Statements {
+template <>
+struct StatementsOf<DocumentsStore> {
   sql::Connection& c;
   sql::Statement find{c, kDocuments.select(c, "WHERE kind = ? AND name = ?")};
   sql::Statement list{c, kDocuments.select(c, "WHERE kind = ? ORDER BY name")};
@@ -43,29 +44,27 @@ struct DocumentsStore::Statements {
   sql::Statement remove{c, "DELETE FROM documents WHERE kind = ? AND name = ? RETURNING 1"};
 };
 
-DocumentsStore::DocumentsStore(sql::Connection& connection)
-    : statements_(std::make_shared<Statements>(connection)) {}
-
 bool DocumentsStore::put(const Document& document) {
   const bool is_new = !find(document.kind, document.name);
-  statements_->put.run(document.kind, document.name, document.text, document.modified_at_ns,
+  statements().put.run(document.kind, document.name, document.text, document.modified_at_ns,
                        document.caller);
   return is_new;
 }
 
 bool DocumentsStore::remove(DocumentKind kind, std::string_view name) {
-  return statements_->remove.run_counting(kind, name) > 0;
+  return statements().remove.run_counting(kind, name) > 0;
 }
 
 std::optional<Document> DocumentsStore::find(DocumentKind kind, std::string_view name) const {
-  return read_first<Document>(statements_->find.query(kind, name), kDocuments);
+  return read_first<Document>(statements().find.query(kind, name), kDocuments);
 }
 
 std::vector<Document> DocumentsStore::list(DocumentKind kind) const {
-  return read_all<Document>(statements_->list.query(kind), kDocuments);
+  return read_all<Document>(statements().list.query(kind), kDocuments);
 }
 
-struct FilesStore::Statements {
+template <>
+struct StatementsOf<FilesStore> {
   sql::Connection& c;
   sql::Statement stat{c,
                       fmt::format("SELECT {} FROM files f JOIN file_revisions r USING (revision) "
@@ -92,19 +91,16 @@ struct FilesStore::Statements {
                                     kKeptRevisions)};
 };
 
-FilesStore::FilesStore(sql::Connection& connection)
-    : statements_(std::make_shared<Statements>(connection)) {}
-
 FilesStore::PutOutcome FilesStore::put(const FileWrite& file) {
   // Deletes in steps: the pages of large files would fill the cache.
   constexpr std::size_t kLarge = std::size_t{256} << 10;
-  if (file.content.size() > kLarge) statements_->insert.release_pages();
+  if (file.content.size() > kLarge) statements().insert.release_pages();
   const std::string key = ascii_upper(file.path);
   const bool created = !stat(file.path);
-  const auto revision = statements_->insert.returning<std::int64_t>(
+  const auto revision = statements().insert.returning<std::int64_t>(
       file.path, key, Blob{file.content}, file.modified_at_ns, file.caller);
-  statements_->point.run(key, revision);
-  statements_->forget.run(key, key);
+  statements().point.run(key, revision);
+  statements().forget.run(key, key);
   return {.created = created, .revision = revision};
 }
 
@@ -113,21 +109,21 @@ bool FilesStore::remove(std::string_view path, std::int64_t now_ns,
   const std::optional<FileEntry> file = stat(path);
   if (!file) return false;
   const std::string key = ascii_upper(path);
-  statements_->insert.returning<std::int64_t>(file->path, key, std::optional<Blob>(), now_ns,
+  statements().insert.returning<std::int64_t>(file->path, key, std::optional<Blob>(), now_ns,
                                               caller);
-  statements_->unpoint.run(key);
-  statements_->forget.run(key, key);
+  statements().unpoint.run(key);
+  statements().forget.run(key, key);
   return true;
 }
 
 std::optional<FileEntry> FilesStore::stat(std::string_view path) const {
   const std::string key = ascii_upper(path);
-  return read_first<FileEntry>(statements_->stat.query(key));
+  return read_first<FileEntry>(statements().stat.query(key));
 }
 
 std::optional<FileContent> FilesStore::find(std::string_view path) const {
   const std::string key = ascii_upper(path);
-  Rows rows = statements_->find.query(key);
+  Rows rows = statements().find.query(key);
   if (!rows.next()) return std::nullopt;
   require_sound(rows, kContent + 1, kFileRevisions);
   return FileContent{row_of<FileEntry>(rows), std::string(rows.get<Blob>(kContent).bytes)};
@@ -135,10 +131,11 @@ std::optional<FileContent> FilesStore::find(std::string_view path) const {
 
 std::vector<FileEntry> FilesStore::list(std::string_view prefix) const {
   const std::string key = ascii_upper(prefix);
-  return read_all<FileEntry>(statements_->list.query(key));
+  return read_all<FileEntry>(statements().list.query(key));
 }
 
-struct NotesStore::Statements {
+template <>
+struct StatementsOf<NotesStore> {
   sql::Connection& c;
   sql::Statement insert{c, kNotes.insert(c) + " RETURNING id"};
   sql::Statement insert_origin{c, kNoteOrigins.insert(c)};
@@ -152,30 +149,28 @@ struct NotesStore::Statements {
   sql::Statement newest_of{c, "SELECT coalesce(max(number), 0) FROM note_origins WHERE origin = ?"};
 };
 
-NotesStore::NotesStore(sql::Connection& connection)
-    : statements_(std::make_shared<Statements>(connection)) {}
-
 std::int64_t NotesStore::append(const Note& note) {
-  const auto id = statements_->insert.returning<std::int64_t>(
+  const auto id = statements().insert.returning<std::int64_t>(
       note.measurement, note.cause, note.measure, note.text, note.operator_id, note.caller,
       note.received_at_ns);
-  if (note.origin > 0) statements_->insert_origin.run(id, note.origin, note.number);
+  if (note.origin > 0) statements().insert_origin.run(id, note.origin, note.number);
   return id;
 }
 
 std::vector<Note> NotesStore::list(std::int64_t measurement) const {
-  return read_notes(statements_->list.query(measurement));
+  return read_notes(statements().list.query(measurement));
 }
 
 std::vector<Note> NotesStore::own_after(std::int64_t after, std::int64_t limit) const {
-  return read_notes(statements_->own_after.query(after, limit));
+  return read_notes(statements().own_after.query(after, limit));
 }
 
 std::int64_t NotesStore::newest_of(std::int64_t origin) const {
-  return statements_->newest_of.returning<std::int64_t>(origin);
+  return statements().newest_of.returning<std::int64_t>(origin);
 }
 
-struct EventsStore::Statements {
+template <>
+struct StatementsOf<EventsStore> {
   sql::Connection& c;
   sql::Statement insert{c, kEvents.insert(c) + " RETURNING id"};
   sql::Statement after{
@@ -190,22 +185,19 @@ struct EventsStore::Statements {
       "WHERE id <= (SELECT max(id) FROM events) - ?1 ORDER BY id LIMIT ?2) RETURNING 1"};
 };
 
-EventsStore::EventsStore(sql::Connection& connection)
-    : statements_(std::make_shared<Statements>(connection)) {}
-
 std::int64_t EventsStore::append(std::string_view type, std::string_view payload,
                                  std::int64_t now_ns) {
-  return statements_->insert.returning<std::int64_t>(type, payload, now_ns);
+  return statements().insert.returning<std::int64_t>(type, payload, now_ns);
 }
 
 std::vector<Event> EventsStore::after(std::int64_t id, std::size_t limit) const {
-  return read_all<Event>(statements_->after.query(id, limit));
+  return read_all<Event>(statements().after.query(id, limit));
 }
 
-EventsStore::Kept EventsStore::kept() const { return *read_first<Kept>(statements_->kept.query()); }
+EventsStore::Kept EventsStore::kept() const { return *read_first<Kept>(statements().kept.query()); }
 
 std::int64_t EventsStore::trim(std::int64_t keep, std::int64_t limit) {
-  return statements_->trim.run_counting(keep, limit);
+  return statements().trim.run_counting(keep, limit);
 }
 
 }  // namespace fitgauge::store

@@ -20,10 +20,9 @@ std::string select_keys(std::string_view rest) {
 
 using sql::Blob;
 
-struct IdempotencyStore::Statements {
+template <>
+struct StatementsOf<IdempotencyStore> {
   sql::Connection& c;
-  const Clock& clock;
-  std::chrono::hours retention;
   sql::MeasurementTable& measurements{c.measurements()};
   sql::Statement find{
       c, kIdempotentAnswers.select(c, "WHERE key = ? AND caller = ? AND method = ? AND path = ?",
@@ -42,12 +41,8 @@ struct IdempotencyStore::Statements {
       "expires_at <= ? LIMIT ?) RETURNING 1"};
 };
 
-IdempotencyStore::IdempotencyStore(sql::Connection& connection, const Clock& clock,
-                                   std::chrono::hours retention)
-    : statements_(std::make_shared<Statements>(connection, clock, retention)) {}
-
 Result<std::optional<StoredAnswer>> IdempotencyStore::find(const IdempotentRequest& request) const {
-  Rows rows = statements_->find.query(request.key, request.caller, request.method, request.path);
+  Rows rows = statements().find.query(request.key, request.caller, request.method, request.path);
   if (!rows.next()) return std::optional<StoredAnswer>();
   require_sound(rows, 5, kIdempotentAnswers);
   if (rows.get<Digest>(0) != request.body) {
@@ -68,11 +63,11 @@ Result<StoredAnswer> IdempotencyStore::once(const IdempotentRequest& request,
   Result<StoredAnswer> answer = work();
   if (!answer || answer->status < 200 || answer->status > 299) return answer;
   const std::int64_t expires_at =
-      request.is_kept_for_ever ? std::numeric_limits<std::int64_t>::max()
-                               : statements_->clock.now().nanoseconds +
-                                     std::chrono::nanoseconds(statements_->retention).count();
-  const std::int64_t newest = statements_->measurements.last_id();
-  statements_->insert.run(request.key, request.caller, request.method, request.path, request.body,
+      request.is_kept_for_ever
+          ? std::numeric_limits<std::int64_t>::max()
+          : clock_.now().nanoseconds + std::chrono::nanoseconds(retention_).count();
+  const std::int64_t newest = statements().measurements.last_id();
+  statements().insert.run(request.key, request.caller, request.method, request.path, request.body,
                           answer->status, answer->content_type, answer->location,
                           Blob{answer->body}, expires_at,
                           newest > 0 ? std::optional(newest) : std::nullopt);
@@ -81,7 +76,7 @@ Result<StoredAnswer> IdempotencyStore::once(const IdempotentRequest& request,
 
 void IdempotencyStore::visit_forwarded(std::int64_t first, std::int64_t last,
                                        const Visitor& visit) const {
-  Rows rows = statements_->forwarded.query(first, last);
+  Rows rows = statements().forwarded.query(first, last);
   while (rows.next()) {
     require_sound(rows, 11, kIdempotentAnswers);
     visit({.request = {.caller = rows.get<std::string>(1),
@@ -100,16 +95,16 @@ void IdempotencyStore::visit_forwarded(std::int64_t first, std::int64_t last,
 void IdempotencyStore::keep(const Forwarded& forwarded) {
   const IdempotentRequest& request = forwarded.request;
   const bool is_kept =
-      statements_->is_kept.query(request.key, request.caller, request.method, request.path).next();
+      statements().is_kept.query(request.key, request.caller, request.method, request.path).next();
   if (is_kept) return;
   const StoredAnswer& answer = forwarded.answer;
-  statements_->insert.run(request.key, request.caller, request.method, request.path, request.body,
+  statements().insert.run(request.key, request.caller, request.method, request.path, request.body,
                           answer.status, answer.content_type, answer.location, Blob{answer.body},
                           forwarded.expires_at_ns, std::optional<std::int64_t>());
 }
 
 std::int64_t IdempotencyStore::purge(Timestamp now, std::int64_t limit) {
-  return statements_->remove.run_counting(now.nanoseconds, limit);
+  return statements().remove.run_counting(now.nanoseconds, limit);
 }
 
 std::string new_token() {
@@ -134,7 +129,8 @@ const ApiKey* KeyRing::find(std::int64_t id) const {
   return found == keys_.end() ? nullptr : &*found;
 }
 
-struct KeysStore::Statements {
+template <>
+struct StatementsOf<KeysStore> {
   sql::Connection& c;
   sql::Statement all{c, select_keys("ORDER BY id")};
   sql::Statement valid{c, select_keys("WHERE revoked_at IS NULL ORDER BY id")};
@@ -158,9 +154,6 @@ struct KeysStore::Statements {
   Seal seal{c, kApiKeys};
 };
 
-KeysStore::KeysStore(sql::Connection& connection)
-    : statements_(std::make_shared<Statements>(connection)) {}
-
 Result<ApiKey> KeysStore::create(std::string_view name, Role role, std::string_view token,
                                  std::int64_t now_ns, std::optional<std::int64_t> expires_at_ns) {
   if (name.empty())
@@ -179,8 +172,8 @@ Result<ApiKey> KeysStore::create(std::string_view name, Role role, std::string_v
   if (key.is_expired(now_ns)) {
     return Error{ErrorCode::FieldInvalid, "expires must be a time in the future", "expires"};
   }
-  statements_->forget_replaced.run(key.token_hash, name, role);
-  if (Rows clash = statements_->clash.query(name, key.token_hash); clash.next()) {
+  statements().forget_replaced.run(key.token_hash, name, role);
+  if (Rows clash = statements().clash.query(name, key.token_hash); clash.next()) {
     if (clash.get<bool>(0)) {
       return Error{
           ErrorCode::FieldConflict,
@@ -190,33 +183,33 @@ Result<ApiKey> KeysStore::create(std::string_view name, Role role, std::string_v
     }
     return Error{ErrorCode::FieldConflict, "this key was used before: create a new one", "token"};
   }
-  key.id = statements_->insert.returning<std::int64_t>(name, role, key.token_hash, now_ns,
+  key.id = statements().insert.returning<std::int64_t>(name, role, key.token_hash, now_ns,
                                                        key.revoked_at_ns, key.expires_at_ns);
   return key;
 }
 
 std::optional<ApiKey> KeysStore::newest(std::string_view name) const {
-  return read_first<ApiKey>(statements_->newest.query(name));
+  return read_first<ApiKey>(statements().newest.query(name));
 }
 
 bool KeysStore::receive(std::string_view name, Role role, const Digest& token_hash,
                         std::int64_t now_ns, std::optional<std::int64_t> expires_at_ns) {
-  if (statements_->clash.query(name, token_hash).next()) return false;
-  statements_->insert.returning<std::int64_t>(name, role, token_hash, now_ns,
+  if (statements().clash.query(name, token_hash).next()) return false;
+  statements().insert.returning<std::int64_t>(name, role, token_hash, now_ns,
                                               std::optional<std::int64_t>(), expires_at_ns);
   return true;
 }
 
 Result<void> KeysStore::revoke(std::string_view name, std::int64_t now_ns) {
-  const auto ids = read_all<std::int64_t>(statements_->revoke.query(name, now_ns));
+  const auto ids = read_all<std::int64_t>(statements().revoke.query(name, now_ns));
   if (ids.empty())
     return Error{ErrorCode::NotFound, fmt::format("valid key not found: '{}'", name)};
-  statements_->seal.renew(ids.back());
+  statements().seal.renew(ids.back());
   return {};
 }
 
-std::vector<ApiKey> KeysStore::list() const { return read_all<ApiKey>(statements_->all.query()); }
+std::vector<ApiKey> KeysStore::list() const { return read_all<ApiKey>(statements().all.query()); }
 
-KeyRing KeysStore::ring() const { return KeyRing(read_all<ApiKey>(statements_->valid.query())); }
+KeyRing KeysStore::ring() const { return KeyRing(read_all<ApiKey>(statements().valid.query())); }
 
 }  // namespace fitgauge::store

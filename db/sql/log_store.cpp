@@ -20,7 +20,8 @@ constexpr const char* kPlace =
 
 }  // namespace
 
-struct LogStore::Statements {
+template <>
+struct StatementsOf<LogStore> {
   sql::Connection& c;
   sql::Statement state{c, kLog.select(c, "WHERE id = 1")};
   sql::Statement set_name{c, "UPDATE log SET name = ?"};
@@ -54,9 +55,6 @@ struct LogStore::Statements {
   }
 };
 
-LogStore::LogStore(sql::Connection& connection)
-    : statements_(std::make_shared<Statements>(connection)) {}
-
 namespace {
 
 using Origin = std::array<std::uint8_t, 16>;
@@ -79,7 +77,7 @@ std::string mark_of_changes(std::string_view history) { return fmt::format("chan
 }  // namespace
 
 LogStore::State LogStore::state() const {
-  Rows rows = statements_->state.query();
+  Rows rows = statements().state.query();
   if (!rows.next()) {
     throw StorageFailure(
         {ErrorCode::StorageCorrupt, "the head of the log is missing in the database"});
@@ -88,13 +86,13 @@ LogStore::State LogStore::state() const {
 }
 
 void LogStore::set_name(std::string_view name) {
-  statements_->set_name.run(name);
-  statements_->seal.renew(1);
+  statements().set_name.run(name);
+  statements().seal.renew(1);
 }
 
 std::vector<LogStore::Branch> LogStore::branches() const {
   std::vector<Branch> branches;
-  for (Rows rows = statements_->branches.query(); rows.next();) {
+  for (Rows rows = statements().branches.query(); rows.next();) {
     require_sound(rows, 7, kLogBranches);
     branches.push_back({.origin = rows.get<Origin>(0),
                         .name = rows.get<std::string>(1),
@@ -105,54 +103,54 @@ std::vector<LogStore::Branch> LogStore::branches() const {
 }
 
 std::int64_t LogStore::last_change(std::string_view history) const {
-  return std::stoll(statements_->reason_of(mark_of_changes(history)).value_or("0"));
+  return std::stoll(statements().reason_of(mark_of_changes(history)).value_or("0"));
 }
 
 std::optional<std::string> LogStore::mark(Mark mark) const {
-  return statements_->reason_of(word(mark));
+  return statements().reason_of(word(mark));
 }
 
 void LogStore::set_mark(Mark mark, const std::optional<std::string>& reason) {
-  statements_->unmark.run(word(mark));
-  if (reason) statements_->mark.run(word(mark), *reason);
+  statements().unmark.run(word(mark));
+  if (reason) statements().mark.run(word(mark), *reason);
 }
 
-std::string LogStore::place() const { return statements_->place.returning<std::string>(); }
+std::string LogStore::place() const { return statements().place.returning<std::string>(); }
 
 void LogStore::begin_branch(std::int64_t size, const Origin& origin, std::string_view name) {
   const State ended = state();
   const auto last = [this] {
-    Rows rows = statements_->newest.query();
+    Rows rows = statements().newest.query();
     rows.next();
     return numbers_in(rows, 0);
   }();
-  statements_->add_branch.run(ended.origin, ended.name.value_or(""), size, last[0], last[1],
+  statements().add_branch.run(ended.origin, ended.name.value_or(""), size, last[0], last[1],
                               last[2], last[3]);
-  statements_->mark.run(mark_of_changes(ended.name.value_or("")),
-                        std::to_string(statements_->last_change.returning<std::int64_t>()));
-  statements_->set_origin.run(origin, name);
-  statements_->seal.renew(1);
+  statements().mark.run(mark_of_changes(ended.name.value_or("")),
+                        std::to_string(statements().last_change.returning<std::int64_t>()));
+  statements().set_origin.run(origin, name);
+  statements().seal.renew(1);
   for (const Mark mark : {Mark::Copy, Mark::Forked}) set_mark(mark, std::nullopt);
 }
 
 std::vector<std::string> LogStore::keys() const {
-  return read_all<std::string>(statements_->keys.query());
+  return read_all<std::string>(statements().keys.query());
 }
 
 void LogStore::add_key(std::string_view vkey, std::int64_t now_ns) {
-  statements_->add_key.run(vkey, now_ns);
+  statements().add_key.run(vkey, now_ns);
 }
 
 void LogStore::grow(std::int64_t size, std::span<const Node> nodes) {
-  for (const Node& node : nodes) statements_->put_node.run(node.level, node.index, node.hash);
-  statements_->set_size.run(size);
-  statements_->seal.renew(1);
+  for (const Node& node : nodes) statements().put_node.run(node.level, node.index, node.hash);
+  statements().set_size.run(size);
+  statements().seal.renew(1);
 }
 
 std::int64_t LogStore::nodes(int level, std::int64_t first, std::int64_t count,
                              const Visitor& visit) const {
   std::int64_t visited = 0;
-  for (Rows rows = statements_->nodes.query(level, first, first + count); rows.next(); ++visited) {
+  for (Rows rows = statements().nodes.query(level, first, first + count); rows.next(); ++visited) {
     visit(rows.get<Digest>(0));
   }
   return visited;
@@ -161,7 +159,8 @@ std::int64_t LogStore::nodes(int level, std::int64_t first, std::int64_t count,
 constexpr std::string_view kChangeColumns =
     "id, at, caller, kind, name, action, before_text, after_text";
 
-struct ChangesStore::Statements {
+template <>
+struct StatementsOf<ChangesStore> {
   sql::Connection& c;
   sql::Statement size{c, "SELECT coalesce(max(id), 0) FROM changes"};
   sql::Statement append{c, kChanges.insert(c)};
@@ -174,13 +173,10 @@ struct ChangesStore::Statements {
   sql::Statement leaves{c, "SELECT leaf FROM changes WHERE id > ?1 AND id <= ?2 ORDER BY id"};
 };
 
-ChangesStore::ChangesStore(sql::Connection& connection)
-    : statements_(std::make_shared<Statements>(connection)) {}
-
-std::int64_t ChangesStore::size() const { return statements_->size.returning<std::int64_t>(); }
+std::int64_t ChangesStore::size() const { return statements().size.returning<std::int64_t>(); }
 
 void ChangesStore::append(const Change& change, const Digest& leaf) {
-  statements_->append.run(change.id, change.at_ns, change.caller, change.kind, change.name,
+  statements().append.run(change.id, change.at_ns, change.caller, change.kind, change.name,
                           change.action, change.before, change.after, leaf);
 }
 
@@ -190,7 +186,7 @@ ChangesStore::Page ChangesStore::list(const ChangeFilter& filter, std::int64_t a
   constexpr std::size_t kMostBytes = std::size_t{4} << 20;
   Page page;
   std::size_t bytes = 0;
-  for (Rows rows = statements_->list.query(after, filter.kind, filter.name,
+  for (Rows rows = statements().list.query(after, filter.kind, filter.name,
                                            filter.from_ns.value_or(Limits::min()),
                                            filter.to_ns.value_or(Limits::max()), limit + 1);
        rows.next();) {
@@ -203,12 +199,12 @@ ChangesStore::Page ChangesStore::list(const ChangeFilter& filter, std::int64_t a
 }
 
 std::vector<Change> ChangesStore::of_kind(std::string_view kind) const {
-  return read_all<Change>(statements_->of_kind.query(kind), kChanges);
+  return read_all<Change>(statements().of_kind.query(kind), kChanges);
 }
 
 void ChangesStore::leaves(std::int64_t after, std::int64_t count,
                           const std::function<void(const Digest&)>& visit) const {
-  for (Rows rows = statements_->leaves.query(after, after + count); rows.next();) {
+  for (Rows rows = statements().leaves.query(after, after + count); rows.next();) {
     visit(rows.get<Digest>(0));
   }
 }

@@ -55,7 +55,8 @@ class Page {
 
 }  // namespace
 
-struct MeasurementsStore::Statements {
+template <>
+struct StatementsOf<MeasurementsStore> {
   sql::Connection& connection;
   sql::MeasurementTable& table{connection.measurements()};
   Statement by_id{connection,
@@ -153,14 +154,11 @@ struct MeasurementsStore::Statements {
   bool may_hold_others = true;  ///< of the writer's: no other connection appends
 };
 
-MeasurementsStore::MeasurementsStore(sql::Connection& connection)
-    : statements_(std::make_shared<Statements>(connection)) {}
-
 Result<void> MeasurementsStore::append(std::span<const MeasurementRow> rows) {
-  TRY(statements_->require_one_history());
+  TRY(statements().require_one_history());
   for (const MeasurementRow& row : rows) {
     if (const auto of = row.correction_of) {
-      if (!statements_->by_id.query(*of).next()) {
+      if (!statements().by_id.query(*of).next()) {
         return Error{ErrorCode::MeasurementUnknown, fmt::format("measurement not found: {}", *of)};
       }
       if (replaced_by(*of)) {
@@ -169,32 +167,32 @@ Result<void> MeasurementsStore::append(std::span<const MeasurementRow> rows) {
             fmt::format("measurement {} has a correction: correct the current measurement", *of)};
       }
     }
-    if (row.table_revision) statements_->require_revision(*row.table_revision);
+    if (row.table_revision) statements().require_revision(*row.table_revision);
   }
-  if (!statements_->table.own_rows() && statements_->holds_others()) {
-    statements_->table.append(statements_->numbered(rows));
+  if (!statements().table.own_rows() && statements().holds_others()) {
+    statements().table.append(statements().numbered(rows));
   } else {
-    statements_->table.append(rows);
+    statements().table.append(rows);
   }
   for (const MeasurementRow& row : rows) {
     if (!row.correction_of) continue;
-    statements_->indexer.corrected(*row.correction_of);
-    if (statements_->holds_others()) statements_->hand_on.run(row.id);
+    statements().indexer.corrected(*row.correction_of);
+    if (statements().holds_others()) statements().hand_on.run(row.id);
   }
   return {};
 }
 
 void MeasurementsStore::append_forwarded(std::span<const MeasurementRow> rows) {
-  statements_->may_hold_others = true;
-  statements_->table.append(rows);
+  statements().may_hold_others = true;
+  statements().table.append(rows);
   for (const MeasurementRow& row : rows) {
-    if (row.correction_of) statements_->indexer.corrected(*row.correction_of);
+    if (row.correction_of) statements().indexer.corrected(*row.correction_of);
   }
 }
 
 std::optional<std::int64_t> MeasurementsStore::find_forwarded(std::int64_t origin,
                                                               std::int64_t number) const {
-  for (Statement* by : {&statements_->by_number, &statements_->by_place}) {
+  for (Statement* by : {&statements().by_number, &statements().by_place}) {
     if (const auto id = read_first<std::int64_t>(by->query(origin, number))) return id;
   }
   return std::nullopt;
@@ -202,35 +200,35 @@ std::optional<std::int64_t> MeasurementsStore::find_forwarded(std::int64_t origi
 
 void MeasurementsStore::list_log(std::int64_t origin, std::int64_t after, std::int64_t limit,
                                  const Visitor& visit) const {
-  statements_->log_rows.run(origin, statements_->alone(), after, limit,
+  statements().log_rows.run(origin, statements().alone(), after, limit,
                             [&](const Rows& rows) { visit(read_row(rows)); });
 }
 
 std::int64_t MeasurementsStore::log_hashes(std::int64_t origin, std::int64_t after,
                                            std::int64_t limit, const HashVisitor& visit) const {
-  return statements_->log_hashes.run(origin, statements_->alone(), after, limit,
+  return statements().log_hashes.run(origin, statements().alone(), after, limit,
                                      [&](const Rows& rows) { visit(rows.get<Digest>(0)); });
 }
 
 bool MeasurementsStore::find(std::int64_t id, const Visitor& visit) const {
-  Rows rows = statements_->by_id.query(id);
+  Rows rows = statements().by_id.query(id);
   if (!rows.next()) return false;
   visit(read_row(rows));
   return true;
 }
 
 std::optional<std::int64_t> MeasurementsStore::corrected_by(std::int64_t id) const {
-  return read_first<std::int64_t>(statements_->correction.query(id));
+  return read_first<std::int64_t>(statements().correction.query(id));
 }
 
 std::optional<std::int64_t> MeasurementsStore::replaced_by(std::int64_t id) const {
   if (const auto newer = corrected_by(id)) return newer;
-  const auto target = read_first<std::int64_t>(statements_->lost_target.query(id));
+  const auto target = read_first<std::int64_t>(statements().lost_target.query(id));
   return target ? corrected_by(*target) : std::nullopt;
 }
 
 bool MeasurementsStore::has_rivals(std::int64_t correction_of) const {
-  return statements_->corrections.returning<std::int64_t>(correction_of) > 1;
+  return statements().corrections.returning<std::int64_t>(correction_of) > 1;
 }
 
 std::optional<std::int64_t> MeasurementsStore::list(const MeasurementFilter& filter,
@@ -244,7 +242,7 @@ std::optional<std::int64_t> MeasurementsStore::list(const MeasurementFilter& fil
     ids.first = after + 1;
   }
   Page page(limit);
-  statements_->whole_rows.run(filter, ids, order, [&](const Rows& rows) {
+  statements().whole_rows.run(filter, ids, order, [&](const Rows& rows) {
     if (!page.take(rows.get<std::int64_t>(0))) return false;
     visit(read_row(rows));
     return true;
@@ -257,8 +255,8 @@ std::optional<std::int64_t> MeasurementsStore::list_values(const MeasurementFilt
                                                            const RunVisitor& visit) const {
   if (after == kLastId) return std::nullopt;
   const IdSpan ids{.first = after + 1, .last = kLastId};
-  const bool all_own = statements_->forwarded_rows.returning<std::int64_t>() == 0;
-  MeasurementQuery& values = all_own ? statements_->own_values : statements_->values;
+  const bool all_own = statements().forwarded_rows.returning<std::int64_t>() == 0;
+  MeasurementQuery& values = all_own ? statements().own_values : statements().values;
   Page page(limit);
   const auto take = [&](MeasuredRun run) {
     std::size_t fitting = 0;
@@ -282,9 +280,9 @@ std::optional<std::int64_t> MeasurementsStore::list_values(const MeasurementFilt
   const auto take_block = [&](std::int64_t node, const RowSet& rows, const IdSpan& among) {
     using BlockRead = MeasurementQuery::BlockRead;
     const IdSpan whole = IndexNode{0, node}.ids();
-    const bool is_whole = filter.history || statements_->corrected_among.returning<std::int64_t>(
+    const bool is_whole = filter.history || statements().corrected_among.returning<std::int64_t>(
                                                 whole.first, whole.last) == 0;
-    Rows found = statements_->block_values.query(node);
+    Rows found = statements().block_values.query(node);
     if (!is_whole || !found.next() || !block.read(found.get<Blob>(0).bytes)) {
       return BlockRead::Passed;
     }
@@ -295,7 +293,7 @@ std::optional<std::int64_t> MeasurementsStore::list_values(const MeasurementFilt
 }
 
 void MeasurementsStore::list_corrections(std::int64_t last, const CorrectionVisitor& visit) const {
-  for (Rows rows = statements_->all_corrections.query(last); rows.next();) {
+  for (Rows rows = statements().all_corrections.query(last); rows.next();) {
     visit(rows.get<std::int64_t>(0), rows.get<std::int64_t>(1));
   }
 }
@@ -304,26 +302,26 @@ std::optional<std::int64_t> MeasurementsStore::first_of_newest(const Measurement
                                                                std::size_t count) const {
   std::optional<std::int64_t> first;
   const IdSpan all{.first = 1, .last = kLastId};
-  statements_->ids.run(filter, all, ListOrder::NewestFirst, [&](const Rows& rows) {
+  statements().ids.run(filter, all, ListOrder::NewestFirst, [&](const Rows& rows) {
     first = rows.get<std::int64_t>(0);
     return --count > 0;
   });
   return first;
 }
 
-bool MeasurementsStore::index_step() { return statements_->indexer.step(); }
+bool MeasurementsStore::index_step() { return statements().indexer.step(); }
 
 void MeasurementsStore::verify_index(const std::function<void(std::string)>& note) const {
-  statements_->indexer.verify(note);
+  statements().indexer.verify(note);
 }
 
 std::int64_t MeasurementsStore::log_size() const {
-  if (const auto counted = statements_->table.own_rows()) return *counted;
-  const std::int64_t others = statements_->alone();
-  return others != kLastId ? statements_->own_rows(others) : last_id();
+  if (const auto counted = statements().table.own_rows()) return *counted;
+  const std::int64_t others = statements().alone();
+  return others != kLastId ? statements().own_rows(others) : last_id();
 }
 
-std::int64_t MeasurementsStore::last_id() const { return statements_->table.last_id(); }
+std::int64_t MeasurementsStore::last_id() const { return statements().table.last_id(); }
 
 std::optional<Timestamp> MeasurementsStore::newest_received_at() const {
   std::optional<Timestamp> newest;
@@ -334,8 +332,8 @@ std::optional<Timestamp> MeasurementsStore::newest_received_at() const {
 Result<std::vector<SummaryGroup>> MeasurementsStore::summary(const MeasurementFilter& filter,
                                                              TextField group_by,
                                                              std::size_t max_groups) const {
-  auto& summaries = statements_->summaries;
-  const auto made = summaries.try_emplace(group_by, statements_->connection, group_by).first;
+  auto& summaries = statements().summaries;
+  const auto made = summaries.try_emplace(group_by, statements().connection, group_by).first;
   return made->second.run(filter, max_groups);
 }
 

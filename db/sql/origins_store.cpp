@@ -16,7 +16,8 @@ constexpr std::string_view kPositionColumn = "number || '-' || lower(hex(tag))";
 
 }  // namespace
 
-struct OriginsStore::Statements {
+template <>
+struct StatementsOf<OriginsStore> {
   sql::Connection& c;
   Statement list{c, kOrigins.select(c, "ORDER BY number", kOriginColumns)};
   Statement by_digits{c, kOrigins.select(c, "WHERE digits = ?", kOriginColumns)};
@@ -45,87 +46,85 @@ struct OriginsStore::Statements {
   Statement set_forwarded{c, kForwarding.replace(c)};
 };
 
-OriginsStore::OriginsStore(sql::Connection& connection)
-    : statements_(std::make_shared<Statements>(connection)) {}
-
 std::vector<OriginsStore::Origin> OriginsStore::list() const {
-  return read_all<Origin>(statements_->list.query(), kOrigins);
+  return read_all<Origin>(statements().list.query(), kOrigins);
 }
 
 std::optional<OriginsStore::Origin> OriginsStore::find(std::string_view digits) const {
-  return read_first<Origin>(statements_->by_digits.query(digits), kOrigins);
+  return read_first<Origin>(statements().by_digits.query(digits), kOrigins);
 }
 
 std::optional<OriginsStore::Origin> OriginsStore::find(std::int64_t number) const {
-  return read_first<Origin>(statements_->by_number.query(number), kOrigins);
+  return read_first<Origin>(statements().by_number.query(number), kOrigins);
 }
 
 std::int64_t OriginsStore::add(std::string_view digits) {
-  return statements_->insert.returning<std::int64_t>(digits, std::optional<std::int64_t>(), 0,
+  return statements().insert.returning<std::int64_t>(digits, std::optional<std::int64_t>(), 0,
                                                      std::string_view());
 }
 
 void OriginsStore::set_head(const Origin& origin) {
-  statements_->set_head.run(origin.first_row, origin.size, origin.checkpoint, origin.number);
-  statements_->seal.renew(origin.number);
+  statements().set_head.run(origin.first_row, origin.size, origin.checkpoint, origin.number);
+  statements().seal.renew(origin.number);
 }
 
 std::vector<std::string> OriginsStore::keys(std::int64_t origin) const {
-  return read_all<std::string>(statements_->keys.query(origin), kOriginKeys);
+  return read_all<std::string>(statements().keys.query(origin), kOriginKeys);
 }
 
 void OriginsStore::add_key(std::int64_t origin, std::string_view vkey, std::int64_t now_ns) {
-  statements_->add_key.run(origin, vkey, now_ns);
+  statements().add_key.run(origin, vkey, now_ns);
 }
 
 std::optional<OriginsStore::Base> OriginsStore::base(std::int64_t origin) const {
-  return read_first<Base>(statements_->base.query(origin), kOriginBases);
+  return read_first<Base>(statements().base.query(origin), kOriginBases);
 }
 
 bool OriginsStore::is_base(std::int64_t origin) const {
-  return statements_->is_base.returning<std::int64_t>(origin) > 0;
+  return statements().is_base.returning<std::int64_t>(origin) > 0;
 }
 
 void OriginsStore::set_base(std::int64_t origin, const Base& base) {
-  statements_->set_base.run(origin, base.origin, base.size);
+  statements().set_base.run(origin, base.origin, base.size);
 }
 
 void OriginsStore::keep_nodes(std::int64_t origin, std::span<const LogStore::Node> nodes) {
   for (const LogStore::Node& node : nodes) {
-    statements_->put_node.run(origin, node.level, node.index, node.hash);
+    statements().put_node.run(origin, node.level, node.index, node.hash);
   }
 }
 
 std::int64_t OriginsStore::nodes(std::int64_t origin, int level, std::int64_t first,
                                  std::int64_t count, const LogStore::Visitor& visit) const {
   std::int64_t visited = 0;
-  Rows rows = statements_->nodes.query(origin, level, first, first + count);
+  Rows rows = statements().nodes.query(origin, level, first, first + count);
   for (; rows.next(); ++visited) visit(rows.get<Digest>(0));
   return visited;
 }
 
 bool OriginsStore::add_fork(std::int64_t origin, std::string_view checkpoint, std::int64_t now_ns) {
-  return statements_->add_fork.run_counting(origin, checkpoint, now_ns) > 0;
+  return statements().add_fork.run_counting(origin, checkpoint, now_ns) > 0;
 }
 
 std::vector<OriginsStore::Revision> OriginsStore::revisions() const {
-  return read_all<Revision>(statements_->revisions.query());
+  return read_all<Revision>(statements().revisions.query());
 }
 
 std::int64_t OriginsStore::add_revision(std::string_view id) {
-  if (const auto known = read_first<std::int64_t>(statements_->revision.query(id))) return *known;
-  return statements_->add_revision.returning<std::int64_t>(id);
+  if (const auto known = read_first<std::int64_t>(statements().revision.query(id))) return *known;
+  return statements().add_revision.returning<std::int64_t>(id);
 }
 
 std::optional<OriginsStore::Forwarded> OriginsStore::forwarded() const {
-  return read_first<Forwarded>(statements_->forwarded.query(), kForwarding);
+  return read_first<Forwarded>(statements().forwarded.query(), kForwarding);
 }
 
 void OriginsStore::set_forwarded(const Forwarded& forwarded) {
-  statements_->set_forwarded.run(1, forwarded.centre, forwarded.size);
+  statements().set_forwarded.run(1, forwarded.centre, forwarded.size);
 }
 
-struct RevisionsStore::Statements {
+template <>
+struct StatementsOf<RevisionsStore> {
   sql::Connection& c;
   Statement list{
       c,
@@ -142,20 +141,17 @@ struct RevisionsStore::Statements {
   Statement forget{c, "DELETE FROM received WHERE kind = ? AND name = ?"};
 };
 
-RevisionsStore::RevisionsStore(sql::Connection& connection)
-    : statements_(std::make_shared<Statements>(connection)) {}
-
 std::vector<RevisionsStore::Revision> RevisionsStore::list(std::int64_t after, std::int64_t station,
                                                            std::int64_t limit) const {
-  return read_all<Revision>(statements_->list.query(after, station, limit));
+  return read_all<Revision>(statements().list.query(after, station, limit));
 }
 
 std::string RevisionsStore::newest_position() const {
-  return read_first<std::string>(statements_->newest.query()).value_or(kBeforeTheFirst);
+  return read_first<std::string>(statements().newest.query()).value_or(kBeforeTheFirst);
 }
 
 std::string RevisionsStore::position(std::int64_t number) const {
-  return read_first<std::string>(statements_->position.query(number)).value_or(kBeforeTheFirst);
+  return read_first<std::string>(statements().position.query(number)).value_or(kBeforeTheFirst);
 }
 
 std::optional<std::int64_t> RevisionsStore::number_of(std::string_view text) const {
@@ -166,16 +162,16 @@ std::optional<std::int64_t> RevisionsStore::number_of(std::string_view text) con
 
 std::optional<RevisionsStore::Received> RevisionsStore::received(RevisionKind kind,
                                                                  std::string_view name) const {
-  return read_first<Received>(statements_->received.query(kind, name), kReceived);
+  return read_first<Received>(statements().received.query(kind, name), kReceived);
 }
 
 void RevisionsStore::set_received(RevisionKind kind, std::string_view name,
                                   const Received& received) {
-  statements_->set_received.run(kind, name, received.number, received.digest);
+  statements().set_received.run(kind, name, received.number, received.digest);
 }
 
 void RevisionsStore::forget_received(RevisionKind kind, std::string_view name) {
-  statements_->forget.run(kind, name);
+  statements().forget.run(kind, name);
 }
 
 }  // namespace fitgauge::store

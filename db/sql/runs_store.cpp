@@ -25,7 +25,8 @@ std::string_view of_the_dead(const sql::Connection& c) {
 
 }  // namespace
 
-struct RunsStore::Statements {
+template <>
+struct StatementsOf<RunsStore> {
   sql::Connection& c;
   sql::Statement insert{c, kRuns.insert(c) + " RETURNING id"};
   sql::Statement start{c, "UPDATE runs SET status = 2 WHERE id = ? AND status <> 8"};
@@ -68,56 +69,53 @@ struct RunsStore::Statements {
   }
 };
 
-RunsStore::RunsStore(sql::Connection& connection)
-    : statements_(std::make_shared<Statements>(connection)) {}
-
 std::int64_t RunsStore::create(const Run& run) {
   const std::string program_key = ascii_upper(run.program);
-  return statements_->insert.returning<std::int64_t>(run.status, run.program, program_key,
+  return statements().insert.returning<std::int64_t>(run.status, run.program, program_key,
                                                      run.request, run.result, run.created_at,
                                                      run.finished_at, run.caller);
 }
 
 Result<void> RunsStore::start(std::int64_t id) {
-  TRY(statements_->require_unfinished(id));
-  statements_->start.run(id);
-  statements_->seal.renew(id);
+  TRY(statements().require_unfinished(id));
+  statements().start.run(id);
+  statements().seal.renew(id);
   return {};
 }
 
 Result<void> RunsStore::finish(std::int64_t id, const RunOutcome& outcome, std::int64_t now_ns) {
-  TRY(statements_->require_unfinished(id));
-  statements_->finish.run(id, outcome.status, outcome.result, now_ns);
-  statements_->seal.renew(id);
-  statements_->insert_trace.run(id, Blob{outcome.trace});
+  TRY(statements().require_unfinished(id));
+  statements().finish.run(id, outcome.status, outcome.result, now_ns);
+  statements().seal.renew(id);
+  statements().insert_trace.run(id, Blob{outcome.trace});
   for (const RunFile& file : outcome.files) {
     const std::string key = ascii_upper(name_of(file.path));
-    statements_->insert_file.run(id, key, file.path, Blob{file.content});
+    statements().insert_file.run(id, key, file.path, Blob{file.content});
   }
   return {};
 }
 
 Result<void> RunsStore::ask_to_cancel(std::int64_t id) {
-  TRY(statements_->require_unfinished(id));
-  statements_->ask_to_cancel.run(id);
-  statements_->seal.renew(id);
+  TRY(statements().require_unfinished(id));
+  statements().ask_to_cancel.run(id);
+  statements().seal.renew(id);
   return {};
 }
 
 std::vector<std::int64_t> RunsStore::to_be_cancelled() const {
-  return read_all<std::int64_t>(statements_->to_be_cancelled.query());
+  return read_all<std::int64_t>(statements().to_be_cancelled.query());
 }
 
 std::optional<RunStatus> RunsStore::status(std::int64_t id) const {
-  return read_first<RunStatus>(statements_->status.query(id));
+  return read_first<RunStatus>(statements().status.query(id));
 }
 
 std::optional<Run> RunsStore::find(std::int64_t id) const {
-  return read_first<Run>(statements_->find.query(id), kRuns);
+  return read_first<Run>(statements().find.query(id), kRuns);
 }
 
 std::optional<std::string> RunsStore::trace(std::int64_t id) const {
-  Rows rows = statements_->trace.query(id);
+  Rows rows = statements().trace.query(id);
   if (!rows.next()) return std::nullopt;
   require_sound(rows, 1, kRunTraces);
   return std::string(rows.get<Blob>(0).bytes);
@@ -126,7 +124,7 @@ std::optional<std::string> RunsStore::trace(std::int64_t id) const {
 std::optional<RunFile> RunsStore::file(std::int64_t id, std::string_view name,
                                        std::string_view path) const {
   const std::string key = ascii_upper(name);
-  for (Rows rows = statements_->file.query(id, key); rows.next();) {
+  for (Rows rows = statements().file.query(id, key); rows.next();) {
     auto found = rows.get<std::string>(0);
     if (!path.empty() && !ascii_iequals(found, path)) continue;
     require_sound(rows, 2, kRunFiles);
@@ -142,7 +140,7 @@ RunsStore::Page RunsStore::list(const RunFilter& filter, std::optional<std::int6
   const std::int64_t before = after.value_or(std::numeric_limits<std::int64_t>::max());
   Page page;
   // One row more than the page shows if there is a next one.
-  for (Rows rows = statements_->page.query(filter.status, program_key, before, limit + 1);
+  for (Rows rows = statements().page.query(filter.status, program_key, before, limit + 1);
        rows.next();) {
     if (page.runs.size() == limit) {
       page.next = page.runs.back().id;
@@ -154,17 +152,17 @@ RunsStore::Page RunsStore::list(const RunFilter& filter, std::optional<std::int6
 }
 
 std::vector<Run> RunsStore::abandoned(std::size_t limit) const {
-  return read_all<Run>(statements_->abandoned.query(limit), kRuns);
+  return read_all<Run>(statements().abandoned.query(limit), kRuns);
 }
 
 bool RunsStore::take_over(std::int64_t id) {
-  if (statements_->take_over.run_counting(id) == 0) return false;
-  statements_->seal.renew(id);
+  if (statements().take_over.run_counting(id) == 0) return false;
+  statements().seal.renew(id);
   return true;
 }
 
 std::int64_t RunsStore::purge(std::int64_t before_ns, std::int64_t limit) {
-  return statements_->purge.run_counting(before_ns, limit);
+  return statements().purge.run_counting(before_ns, limit);
 }
 
 }  // namespace fitgauge::store

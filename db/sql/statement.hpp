@@ -5,6 +5,7 @@
 #include "base/clock.hpp"
 #include "base/digest.hpp"
 #include "db/sql/connection.hpp"
+#include "db/store/on_connection.hpp"
 
 namespace fitgauge::store::sql {
 
@@ -262,3 +263,13 @@ class RowsInsert {
 };
 
 }  // namespace fitgauge::store::sql
+
+namespace fitgauge::store {
+
+template <class Store>
+StatementsOf<Store>& OnConnection<Store>::statements() const {
+  if (!statements_) statements_ = std::make_shared<StatementsOf<Store>>(connection_);
+  return *statements_;
+}
+
+}  // namespace fitgauge::store

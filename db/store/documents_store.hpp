@@ -1,14 +1,9 @@
 #pragma once
 
 #include "base/clock.hpp"
+#include "db/store/on_connection.hpp"
 
 namespace fitgauge::store {
-
-namespace sql {
-class Connection;
-}
-
-// The members of rows are the columns in their order: sql::row_of reads them so.
 
 /// Kinds of documents: texts with a name. The codes are stored: never change one, never use one
 /// again.
@@ -34,18 +29,12 @@ struct Document {
 };
 
 /// Documents by kind and name.
-class DocumentsStore {
+class DocumentsStore : public OnConnection<DocumentsStore> {
  public:
-  explicit DocumentsStore(sql::Connection& connection);
-
   bool put(const Document& document);  ///< @returns whether it is new
   bool remove(DocumentKind kind, std::string_view name);
   std::optional<Document> find(DocumentKind kind, std::string_view name) const;
   std::vector<Document> list(DocumentKind kind) const;  ///< by name, with their texts
-
- private:
-  struct Statements;
-  std::shared_ptr<Statements> statements_;
 };
 
 /// A file of the control's disk without its content.
@@ -72,10 +61,8 @@ struct FileWrite {
 /// The files of the control's disk. Of each the 20 newest revisions stay in the table
 /// `file_revisions`, deletions among them. Paths are opaque texts that compare without regard to
 /// ASCII case, as on the control.
-class FilesStore {
+class FilesStore : public OnConnection<FilesStore> {
  public:
-  explicit FilesStore(sql::Connection& connection);
-
   struct PutOutcome {
     bool created = false;  ///< false: an existing file was replaced
     std::int64_t revision = 0;
@@ -88,10 +75,6 @@ class FilesStore {
   std::optional<FileEntry> stat(std::string_view path) const;
   std::optional<FileContent> find(std::string_view path) const;
   std::vector<FileEntry> list(std::string_view prefix) const;  ///< by path
-
- private:
-  struct Statements;
-  std::shared_ptr<Statements> statements_;
 };
 
 /// A note of a person about a measurement, its cause or an action; at least one of the texts.
@@ -110,10 +93,8 @@ struct Note {
 };
 
 /// Notes of measurements, kept for ever: the database refuses UPDATE and DELETE.
-class NotesStore {
+class NotesStore : public OnConnection<NotesStore> {
  public:
-  explicit NotesStore(sql::Connection& connection);
-
   std::int64_t append(const Note& note);                   ///< @returns its id
   std::vector<Note> list(std::int64_t measurement) const;  ///< oldest first
 
@@ -122,10 +103,6 @@ class NotesStore {
   std::vector<Note> own_after(std::int64_t after, std::int64_t limit) const;
   /// The greatest number of the notes that this origin has forwarded; 0 before the first.
   std::int64_t newest_of(std::int64_t origin) const;
-
- private:
-  struct Statements;
-  std::shared_ptr<Statements> statements_;
 };
 
 struct Event {
@@ -136,10 +113,8 @@ struct Event {
 };
 
 /// Events for replay, the newest ones only. Ids rise and are never used twice.
-class EventsStore {
+class EventsStore : public OnConnection<EventsStore> {
  public:
-  explicit EventsStore(sql::Connection& connection);
-
   std::int64_t append(std::string_view type, std::string_view payload, std::int64_t now_ns);
 
   std::vector<Event> after(std::int64_t id, std::size_t limit) const;  ///< oldest first
@@ -153,10 +128,6 @@ class EventsStore {
 
   /// Deletes the oldest so that at most `keep` remain, up to `limit` of them. @returns how many.
   std::int64_t trim(std::int64_t keep, std::int64_t limit);
-
- private:
-  struct Statements;
-  std::shared_ptr<Statements> statements_;
 };
 
 }  // namespace fitgauge::store

@@ -2,14 +2,9 @@
 
 #include "base/clock.hpp"
 #include "base/digest.hpp"
+#include "db/store/on_connection.hpp"
 
 namespace fitgauge::store {
-
-namespace sql {
-class Connection;
-}
-
-// The members of rows are the columns in their order: sql::row_of reads them so.
 
 /// A request that carries an Idempotency-Key. Caller, method and path are the key's scope.
 struct IdempotentRequest {
@@ -32,9 +27,10 @@ struct StoredAnswer {
 
 /// The answers of requests with an Idempotency-Key. An answer counts until the writer's maintenance
 /// purges it after it has expired.
-class IdempotencyStore {
+class IdempotencyStore : public OnConnection<IdempotencyStore> {
  public:
-  IdempotencyStore(sql::Connection& connection, const Clock& clock, std::chrono::hours retention);
+  IdempotencyStore(sql::Connection& connection, const Clock& clock, std::chrono::hours retention)
+      : OnConnection(connection), clock_(clock), retention_(retention) {}
 
   /// Returns the stored response; none if the key is new. Called before the body is parsed, so that
   /// a repeat gets the same response in any case.
@@ -69,8 +65,8 @@ class IdempotencyStore {
   std::int64_t purge(Timestamp now, std::int64_t limit);
 
  private:
-  struct Statements;
-  std::shared_ptr<Statements> statements_;
+  const Clock& clock_;
+  const std::chrono::hours retention_;
 };
 
 /// Rights of a caller. An operator has all rights of a viewer, an administrator all rights; a
@@ -111,10 +107,8 @@ class KeyRing {
 };
 
 /// The API keys. A revoked key stays in the list, so that its name in old rows can be explained.
-class KeysStore {
+class KeysStore : public OnConnection<KeysStore> {
  public:
-  explicit KeysStore(sql::Connection& connection);
-
   /// Stores the hash of `token`, from new_token or with at least 16 characters of an
   /// administrator. A token that was replaced under this name and role is valid again.
   /// @errors FieldConflict when a valid key has the name, or a key the token; FieldInvalid.
@@ -135,10 +129,6 @@ class KeysStore {
   /// The keys that are not revoked. Other processes create and revoke keys too: load it again every
   /// few seconds.
   KeyRing ring() const;
-
- private:
-  struct Statements;
-  std::shared_ptr<Statements> statements_;
 };
 
 }  // namespace fitgauge::store

@@ -1,21 +1,14 @@
 #pragma once
 
 #include "base/digest.hpp"
+#include "db/store/on_connection.hpp"
 
 namespace fitgauge::store {
 
-namespace sql {
-class Connection;
-}
-
-// The members of rows are the columns in their order: sql::row_of reads them so.
-
 /// The log of the measurements of a data folder: its origin, its keys, and the stored nodes of its
 /// tree. The leaves are in the measurements (MeasurementsStore::log_hashes).
-class LogStore {
+class LogStore : public OnConnection<LogStore> {
  public:
-  explicit LogStore(sql::Connection& connection);
-
   struct State {
     std::array<std::uint8_t, 16> origin{};  ///< random, made with the database, never changed
     std::optional<std::string> name{};      ///< first words of its checkpoints; none: not set yet
@@ -71,18 +64,12 @@ class LogStore {
   using Visitor = std::function<void(const Digest&)>;
   /// Visits the nodes of a level from `first` on. @returns how many there were, at most `count`.
   std::int64_t nodes(int level, std::int64_t first, std::int64_t count, const Visitor& visit) const;
-
- private:
-  struct Statements;
-  std::shared_ptr<Statements> statements_;
 };
 
 /// Other data folders whose stations forward records to this one, and the forwarded part of the log
 /// of this folder.
-class OriginsStore {
+class OriginsStore : public OnConnection<OriginsStore> {
  public:
-  explicit OriginsStore(sql::Connection& connection);
-
   struct Origin {
     std::int64_t number = 0;                  ///< in MeasurementRow::origin, from 1 on
     std::string digits{};                     ///< end of its ids
@@ -137,10 +124,6 @@ class OriginsStore {
   };
   std::optional<Forwarded> forwarded() const;
   void set_forwarded(const Forwarded& forwarded);
-
- private:
-  struct Statements;
-  std::shared_ptr<Statements> statements_;
 };
 
 /// The codes are stored: never change or reuse one. Setup, Plan and Catalogue are those of
@@ -158,10 +141,8 @@ constexpr RevisionKind last_of(RevisionKind) { return RevisionKind::Catalogue; }
 /// Changes of a centre for its stations, and the part that a station has of them. Changes of
 /// tables, keys, setups, plans and catalogues number themselves; corrections are numbered by
 /// MeasurementsStore::append().
-class RevisionsStore {
+class RevisionsStore : public OnConnection<RevisionsStore> {
  public:
-  explicit RevisionsStore(sql::Connection& connection);
-
   struct Revision {
     std::int64_t number = 0;
     RevisionKind kind = RevisionKind::Tables;
@@ -184,10 +165,6 @@ class RevisionsStore {
   std::optional<Received> received(RevisionKind kind, std::string_view name) const;
   void set_received(RevisionKind kind, std::string_view name, const Received& received);
   void forget_received(RevisionKind kind, std::string_view name);
-
- private:
-  struct Statements;
-  std::shared_ptr<Statements> statements_;
 };
 
 /// A change of something that decides on verdicts or rights: a table, a document or a key.
@@ -210,10 +187,8 @@ struct ChangeFilter {
 };
 
 /// The changes, kept for ever: the database refuses UPDATE and DELETE.
-class ChangesStore {
+class ChangesStore : public OnConnection<ChangesStore> {
  public:
-  explicit ChangesStore(sql::Connection& connection);
-
   std::int64_t size() const;
   /// @pre its id is size() + 1. @param leaf its hash in the tree of changes
   void append(const Change& change, const Digest& leaf);
@@ -229,10 +204,6 @@ class ChangesStore {
   /// Visits the hashes of `count` changes after `after`.
   void leaves(std::int64_t after, std::int64_t count,
               const std::function<void(const Digest&)>& visit) const;
-
- private:
-  struct Statements;
-  std::shared_ptr<Statements> statements_;
 };
 
 }  // namespace fitgauge::store

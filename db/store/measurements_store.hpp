@@ -3,18 +3,13 @@
 #include "base/clock.hpp"
 #include "db/store/measurement_index.hpp"
 #include "db/store/measurement_row.hpp"
+#include "db/store/on_connection.hpp"
 
 namespace fitgauge::store {
 
-namespace sql {
-class Connection;
-}
-
 /// Measurements, kept for ever: the database refuses UPDATE and DELETE.
-class MeasurementsStore {
+class MeasurementsStore : public OnConnection<MeasurementsStore> {
  public:
-  explicit MeasurementsStore(sql::Connection& connection);
-
   /// Appends rows, which have their hash and the ids from last_id() + 1 on. `correction_of` must
   /// name a row without a correction; if that row is a record of a station, the correction is
   /// numbered for that station (RevisionsStore).
@@ -89,10 +84,6 @@ class MeasurementsStore {
   bool index_step();
   /// Derives the index again. @param note receives each difference, as a sentence.
   void verify_index(const std::function<void(std::string)>& note) const;
-
- private:
-  struct Statements;
-  std::shared_ptr<Statements> statements_;
 };
 
 }  // namespace fitgauge::store

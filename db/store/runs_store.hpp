@@ -1,14 +1,9 @@
 #pragma once
 
 #include "base/clock.hpp"
+#include "db/store/on_connection.hpp"
 
 namespace fitgauge::store {
-
-namespace sql {
-class Connection;
-}
-
-// The members of rows are the columns in their order: sql::row_of reads them so.
 
 // Their codes are stored (code_of): never change the order.
 enum class RunStatus : std::uint8_t {
@@ -63,10 +58,8 @@ struct RunFilter {
 };
 
 /// Runs with their files and traces.
-class RunsStore {
+class RunsStore : public OnConnection<RunsStore> {
  public:
-  explicit RunsStore(sql::Connection& connection);
-
   /// Stores a run that is queued, running or, with `finish` in the same job, already over.
   /// `run.id` is ignored. @returns the id, rising.
   std::int64_t create(const Run& run);
@@ -106,10 +99,6 @@ class RunsStore {
   /// Deletes up to `limit` runs that finished before `before_ns`, with files and traces.
   /// @returns how many.
   std::int64_t purge(std::int64_t before_ns, std::int64_t limit);
-
- private:
-  struct Statements;
-  std::shared_ptr<Statements> statements_;
 };
 
 }  // namespace fitgauge::store

@@ -23,10 +23,6 @@ class StorageFailure : public std::runtime_error {
   Error error_;
 };
 
-namespace sql {
-class Connection;
-}
-
 /// The stores of one connection. Const is reading: a read job sees `const Stores&`, a write job
 /// `Stores&`. Used by the connection's thread alone. Every function throws StorageFailure when the
 /// storage fails; the writer and the read pool turn that into an Error.
