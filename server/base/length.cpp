@@ -99,12 +99,9 @@ Error error_of(ErrorCode code, std::string_view text, std::string_view what) {
 constexpr int kMillimetreScale = 6;
 constexpr int kMicrometreScale = 3;
 
-Result<Length> parse_length(std::string_view text, int scale, LengthSyntax syntax) {
-  const DecimalSyntax decimal{.scale = scale,
-                              .decimal_comma = syntax.decimal_comma,
-                              .exponent = syntax.exponent,
-                              .round_to_nearest = syntax.round_to_nearest};
-  auto parsed = parse_decimal(text, decimal);
+Result<Length> parse_length(std::string_view text, int scale, DecimalSyntax syntax) {
+  syntax.scale = scale;
+  auto parsed = parse_decimal(text, syntax);
   if (!parsed) {
     Error error = std::move(parsed).error();
     if (error.code == ErrorCode::NumberMalformed) error.code = ErrorCode::LengthMalformed;
@@ -203,11 +200,11 @@ Result<Length> Length::nearest_mm(double millimetres) {
   return nanometres(std::llround(millimetres * 1e6));
 }
 
-Result<Length> parse_length_mm(std::string_view text, LengthSyntax syntax) {
+Result<Length> parse_length_mm(std::string_view text, DecimalSyntax syntax) {
   return parse_length(text, kMillimetreScale, syntax);
 }
 
-Result<Length> parse_length_um(std::string_view text, LengthSyntax syntax) {
+Result<Length> parse_length_um(std::string_view text, DecimalSyntax syntax) {
   return parse_length(text, kMicrometreScale, syntax);
 }
 

@@ -72,19 +72,14 @@ class Length {
 /// The largest magnitude read from text: 1e9 mm. Sums of a few such lengths still fit 64 bits.
 inline constexpr Length kLongest = Length::millimetres(1'000'000'000);
 
-/// Forms of text that are a length.
-struct LengthSyntax {
-  bool decimal_comma = false;     ///< `25,5`: paths, queries, designations, CSV
-  bool exponent = false;          ///< `2.5e1`: JSON numbers only
-  bool round_to_nearest = false;  ///< measured values: to the nearest nanometre instead of refused
-};
-
-/// Reads a length in millimetres.
+/// Reads a length in millimetres, to the nanometre whatever the scale of the syntax. Paths,
+/// queries, designations and CSV may have a decimal comma, JSON numbers an exponent, and measured
+/// values are rounded.
 /// @errors LengthMalformed, LengthTooFine, LengthOutOfRange (beyond ±kLongest).
-Result<Length> parse_length_mm(std::string_view text, LengthSyntax syntax = {});
+Result<Length> parse_length_mm(std::string_view text, DecimalSyntax syntax = {});
 
-/// Reads a length in micrometres; errors as parse_length_mm.
-Result<Length> parse_length_um(std::string_view text, LengthSyntax syntax = {});
+/// Reads a length in micrometres; otherwise as parse_length_mm.
+Result<Length> parse_length_um(std::string_view text, DecimalSyntax syntax = {});
 
 /// The shortest exact decimal in mm (`25.021`) or µm (`-0.75`).
 void append_mm(std::string& out, Length length);

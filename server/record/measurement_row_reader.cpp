@@ -154,9 +154,9 @@ bool MeasurementRowReader::check_number(std::size_t field, const RawValue& value
 std::optional<Length> MeasurementRowReader::length(std::size_t field, const RawValue& value,
                                                    bool micrometres, bool round) {
   if (!check_number(field, value)) return std::nullopt;
-  const LengthSyntax syntax{.decimal_comma = value.decimal_comma,
-                            .exponent = value.kind == RawValue::Kind::Number,
-                            .round_to_nearest = round};
+  const DecimalSyntax syntax{.decimal_comma = value.decimal_comma,
+                             .exponent = value.kind == RawValue::Kind::Number,
+                             .round_to_nearest = round};
   const auto parsed =
       micrometres ? parse_length_um(value.text, syntax) : parse_length_mm(value.text, syntax);
   if (parsed) return *parsed;

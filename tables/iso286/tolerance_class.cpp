@@ -61,7 +61,7 @@ Result<NominalSize> NominalSize::make(Length size) {
   return NominalSize(size);
 }
 
-Result<NominalSize> NominalSize::parse_mm(std::string_view text, LengthSyntax syntax) {
+Result<NominalSize> NominalSize::parse_mm(std::string_view text, DecimalSyntax syntax) {
   const auto size = parse_length_mm(text, syntax);
   if (!size && size.error().code == ErrorCode::LengthOutOfRange) return out_of_range(text);
   return size ? make(*size) : size.error();

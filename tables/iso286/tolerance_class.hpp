@@ -29,7 +29,7 @@ class NominalSize {
 
   /// Reads a size in mm; the whole text is the number.
   /// @errors LengthMalformed, LengthTooFine, SizeOutOfRange.
-  static Result<NominalSize> parse_mm(std::string_view text, LengthSyntax syntax = {});
+  static Result<NominalSize> parse_mm(std::string_view text, DecimalSyntax syntax = {});
 
   constexpr Length length() const { return size_; }
 

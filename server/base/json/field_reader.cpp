@@ -87,7 +87,7 @@ std::optional<Length> FieldReader::length(std::string_view name, bool micrometre
   const JsonValue* value =
       take(name, true, {Kind::Number, Kind::String}, "a number or a string with one");
   if (value == nullptr) return std::nullopt;
-  const LengthSyntax syntax{.exponent = value->is(Kind::Number)};
+  const DecimalSyntax syntax{.exponent = value->is(Kind::Number)};
   const auto parsed =
       micrometres ? parse_length_um(value->text, syntax) : parse_length_mm(value->text, syntax);
   if (parsed) return *parsed;

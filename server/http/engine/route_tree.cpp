@@ -60,7 +60,7 @@ struct Reader {
   }
 
   Result<ArgumentValue> operator()(const LengthIn& type) const {
-    const LengthSyntax syntax{.decimal_comma = true, .round_to_nearest = type.round_to_nearest};
+    const DecimalSyntax syntax{.decimal_comma = true, .round_to_nearest = type.round_to_nearest};
     auto length = type.unit == LengthUnit::Millimetre ? parse_length_mm(text, syntax)
                                                       : parse_length_um(text, syntax);
     if (!length) {

@@ -128,7 +128,7 @@ class Fields {
   }
 
  private:
-  static constexpr LengthSyntax kSyntax{
+  static constexpr DecimalSyntax kSyntax{
       .decimal_comma = true, .exponent = false, .round_to_nearest = true};
 
   Result<Length> named(std::string_view name, Result<Length> read) const {
