@@ -9,40 +9,66 @@ namespace {
 
 using sql::Rows;
 
-bool is_sorted(const TableContent& content) {
-  return std::ranges::is_sorted(content.cells) && std::ranges::is_sorted(content.custom);
-}
+/// The columns of a cell, and of a row of a custom class.
+using CellRow = std::tuple<std::string_view, std::string_view, std::int64_t, std::int64_t,
+                           std::optional<std::int64_t>>;
+using CustomRow = std::tuple<std::string_view, std::string_view, std::int64_t, std::int64_t,
+                             std::int64_t, std::int64_t>;
 
-TableContent sorted(TableContent content) {
-  std::ranges::sort(content.cells);
-  std::ranges::sort(content.custom);
-  return content;
-}
-
-bool is_valid(const TableCell& cell) { return cell.over_nm >= 0 && cell.over_nm < cell.up_to_nm; }
-bool is_valid(const CustomCell& cell) {
-  return cell.over_nm >= 0 && cell.over_nm < cell.up_to_nm && cell.lower_nm <= cell.upper_nm;
-}
-
-/// The first cell of a sorted list that is invalid or begins at the size of the previous cell.
-template <class Cell>
-const Cell* first_invalid(const std::vector<Cell>& cells) {
-  const Cell* before = nullptr;
-  for (const Cell& cell : cells) {
-    const bool twice = before != nullptr && before->table == cell.table &&
-                       before->column == cell.column && before->over_nm == cell.over_nm;
-    if (twice || !is_valid(cell)) return &cell;
-    before = &cell;
+std::vector<CellRow> rows_of(const std::vector<iso286::TableCell>& cells) {
+  std::vector<CellRow> rows;
+  for (const auto& [table, range, column, value] : cells) {
+    rows.emplace_back(name(table), column, range.over.count(), range.up_to.count(),
+                      value ? std::optional(value->count()) : std::nullopt);
   }
-  return nullptr;
+  std::ranges::sort(rows);
+  return rows;
 }
 
-template <class Cell>
-Error invalid(const Cell& cell) {
-  return {ErrorCode::TableRowsInvalid,
-          "a size range is repeated or empty, or its lower deviation is above its upper deviation",
-          fmt::format("{} {} over {} nm up to {} nm", cell.table, cell.column, cell.over_nm,
-                      cell.up_to_nm)};
+std::vector<CustomRow> rows_of(const std::vector<iso286::CustomColumn>& columns) {
+  std::vector<CustomRow> rows;
+  for (const auto& column : columns) {
+    for (const auto& [range, deviations] : column.rows) {
+      rows.emplace_back(word(column.feature), column.name, range.over.count(), range.up_to.count(),
+                        deviations.upper.count(), deviations.lower.count());
+    }
+  }
+  std::ranges::sort(rows);
+  return rows;
+}
+
+bool has_order(const CellRow&) { return true; }
+bool has_order(const CustomRow& row) { return std::get<5>(row) <= std::get<4>(row); }
+
+/// @errors TableRowsInvalid for a row that begins at the size of the previous row, or is empty.
+template <class Row>
+Result<void> check_rows(const std::vector<Row>& sorted) {
+  std::optional<std::tuple<std::string_view, std::string_view, std::int64_t>> before;
+  for (const Row& row : sorted) {
+    const std::tuple begin(std::get<0>(row), std::get<1>(row), std::get<2>(row));
+    const auto& [table, column, over] = begin;
+    const std::int64_t up_to = std::get<3>(row);
+    if (before == begin || over < 0 || over >= up_to || !has_order(row)) {
+      return Error{ErrorCode::TableRowsInvalid,
+                   "a size range is repeated or empty, or its lower deviation is above its upper "
+                   "deviation",
+                   fmt::format("{} {} over {} nm up to {} nm", table, column, over, up_to)};
+    }
+    before = begin;
+  }
+  return {};
+}
+
+Length length_in(const Rows& rows, int column) {
+  return Length::nanometres(rows.get<std::int64_t>(column));
+}
+iso286::NominalSizeRange range_in(const Rows& rows) {
+  return {.over = length_in(rows, 2), .up_to = length_in(rows, 3)};
+}
+
+Error unknown_table(const Rows& rows) {
+  const auto table = rows.get<std::string>(0);
+  return {ErrorCode::TablesInconsistent, "unknown table " + table, table};
 }
 
 constexpr std::size_t kShownDigits = 8;
@@ -64,7 +90,8 @@ std::string select_revision(std::string_view rest) {
 
 }  // namespace
 
-struct TablesStore::Statements {
+template <>
+struct StatementsOf<TablesStore> {
   sql::Connection& c;
   sql::Statement newest{c, select_revision("ORDER BY number DESC LIMIT 1")};
   sql::Statement by_number{c, select_revision("WHERE number = ?")};
@@ -107,22 +134,43 @@ struct TablesStore::Statements {
     }
   }
 
+  Result<iso286::TableData> read(std::int64_t number) {
+    iso286::TableData data;
+    for (Rows rows = cells.query(number); rows.next();) {
+      const auto table = iso286::table_from_name(rows.get<std::string_view>(0));
+      if (!table) return unknown_table(rows);
+      const auto value = rows.get<std::optional<std::int64_t>>(4);
+      data.cells.push_back({*table, range_in(rows), rows.get<std::string>(1),
+                            value ? std::optional(Length::nanometres(*value)) : std::nullopt});
+    }
+    std::map<std::pair<iso286::Feature, std::string>, std::vector<iso286::CustomRow>> columns;
+    for (Rows rows = custom.query(number); rows.next();) {
+      const auto feature = iso286::feature_from_word(rows.get<std::string_view>(0));
+      if (!feature) return unknown_table(rows);
+      columns[{*feature, rows.get<std::string>(1)}].push_back(
+          {range_in(rows), {.upper = length_in(rows, 4), .lower = length_in(rows, 5)}});
+    }
+    for (auto& [key, rows] : columns) {
+      data.custom_columns.push_back({key.first, key.second, std::move(rows)});
+    }
+    return data;
+  }
+
   std::optional<LoadedTables> load(std::optional<TableRevision> revision) {
     if (!revision) return std::nullopt;
-    LoadedTables loaded{.revision = *std::move(revision), .content = {}, .computed = {}};
-    loaded.content = {read_all<TableCell>(cells.query(loaded.revision.number)),
-                      read_all<CustomCell>(custom.query(loaded.revision.number))};
-    loaded.computed = digest_of(loaded.content);
+    LoadedTables loaded{.content = read(revision->number)};
+    loaded.revision = *std::move(revision);
+    if (loaded.content) loaded.computed = digest_of(*loaded.content);
     return loaded;
   }
 
   /// The set with exactly these cells, stored now if it was not.
-  std::int64_t set_of(const std::vector<TableCell>& list) {
-    const Digest digest = digest_of({.cells = list, .custom = {}});
+  std::int64_t set_of(const iso286::TableData& content) {
+    const Digest digest = digest_of({.cells = content.cells, .custom_columns = {}});
     if (const auto known = read_first<std::int64_t>(set_by_digest.query(digest))) return *known;
     const auto set = insert_set.returning<std::int64_t>(digest);
-    for (const TableCell& cell : list) {
-      insert_cell.run(set, cell.table, cell.column, cell.over_nm, cell.up_to_nm, cell.value_nm);
+    for (const CellRow& row : rows_of(content.cells)) {
+      std::apply([&](const auto&... values) { insert_cell.run(set, values...); }, row);
     }
     return set;
   }
@@ -130,25 +178,21 @@ struct TablesStore::Statements {
 
 std::string shown_digits(const Digest& digest) { return to_hex(digest).substr(0, kShownDigits); }
 
-Digest digest_of(const TableContent& content) {
-  if (!is_sorted(content)) return digest_of(sorted(content));  // stored cells come sorted
+Digest digest_of(const iso286::TableData& content) {
   CanonicalDigest digest;
-  const auto add = [&digest](const auto& cells) {
-    digest.add(cells.size());
-    for (const auto& cell : cells) {
-      boost::pfr::for_each_field(cell, [&digest](const auto& member) { digest.add(member); });
+  const auto add = [&digest](const auto& rows) {
+    digest.add(rows.size());
+    for (const auto& row : rows) {
+      std::apply([&digest](const auto&... members) { (digest.add(members), ...); }, row);
     }
   };
-  add(content.cells);
-  add(content.custom);
+  add(rows_of(content.cells));
+  add(rows_of(content.custom_columns));
   return digest.finish();
 }
 
-TablesStore::TablesStore(sql::Connection& connection)
-    : statements_(std::make_shared<Statements>(connection)) {}
-
 Result<TableRevision> TablesStore::import(const TableImport& tables, std::int64_t now_ns) {
-  const std::optional<TableRevision> newest = statements_->one(statements_->newest);
+  const std::optional<TableRevision> newest = statements().one(statements().newest);
   const std::optional<std::int64_t> in_force =
       newest ? std::optional(newest->number) : std::nullopt;
   if (tables.parent != in_force) {
@@ -157,31 +201,31 @@ Result<TableRevision> TablesStore::import(const TableImport& tables, std::int64_
         fmt::format("the current tables are revision {}: read them again and repeat the change",
                     newest ? newest->id : "none")};
   }
-  const TableContent content = sorted(tables.content);
-  if (const TableCell* cell = first_invalid(content.cells)) return invalid(*cell);
-  if (const CustomCell* cell = first_invalid(content.custom)) return invalid(*cell);
+  TRY(check_rows(rows_of(tables.content.cells)));
+  const auto custom = rows_of(tables.content.custom_columns);
+  TRY(check_rows(custom));
 
-  const std::int64_t set = statements_->set_of(content.cells);
-  const auto number = statements_->insert_revision.returning<std::int64_t>(
-      digest_of(content), set, tables.source, now_ns, tables.parent, tables.caller);
-  for (const CustomCell& cell : content.custom) {
-    statements_->insert_custom.run(number, cell.table, cell.column, cell.over_nm, cell.up_to_nm,
-                                   cell.upper_nm, cell.lower_nm);
+  const std::int64_t set = statements().set_of(tables.content);
+  const auto number = statements().insert_revision.returning<std::int64_t>(
+      digest_of(tables.content), set, tables.source, now_ns, tables.parent, tables.caller);
+  for (const CustomRow& row : custom) {
+    std::apply([&](const auto&... values) { statements().insert_custom.run(number, values...); },
+               row);
   }
-  if (tables.id) statements_->insert_id.run(number, *tables.id);
-  return *statements_->one(statements_->by_number, number);
+  if (tables.id) statements().insert_id.run(number, *tables.id);
+  return *statements().one(statements().by_number, number);
 }
 
 std::optional<LoadedTables> TablesStore::load_latest() const {
-  return statements_->load(statements_->one(statements_->newest));
+  return statements().load(statements().one(statements().newest));
 }
 
 std::optional<LoadedTables> TablesStore::load(std::int64_t number) const {
-  return statements_->load(statements_->one(statements_->by_number, number));
+  return statements().load(statements().one(statements().by_number, number));
 }
 
 std::optional<LoadedTables> TablesStore::load(std::string_view id) const {
-  if (auto given = statements_->load(statements_->one(statements_->by_given_id, id))) return given;
+  if (auto given = statements().load(statements().one(statements().by_given_id, id))) return given;
   std::int64_t number = 0;
   std::from_chars(id.data(), id.data() + id.size(), number);
   auto loaded = load(number);
@@ -191,17 +235,17 @@ std::optional<LoadedTables> TablesStore::load(std::string_view id) const {
 
 Digest TablesStore::compute_digest(std::int64_t number) const {
   CanonicalDigest digest;
-  statements_->add(
+  statements().add(
       digest,
       "table_cells WHERE table_set = (SELECT table_set FROM table_revisions WHERE number = ?)",
-      statements_->cells, number);
-  statements_->add(digest, "custom_cells WHERE revision = ?", statements_->custom, number);
+      statements().cells, number);
+  statements().add(digest, "custom_cells WHERE revision = ?", statements().custom, number);
   return digest.finish();
 }
 
 std::vector<TableRevision> TablesStore::list() const {
   std::vector<TableRevision> revisions;
-  for (Rows rows = statements_->all.query(); rows.next();) revisions.push_back(read_revision(rows));
+  for (Rows rows = statements().all.query(); rows.next();) revisions.push_back(read_revision(rows));
   return revisions;
 }
 

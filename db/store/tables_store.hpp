@@ -1,49 +1,15 @@
 #pragma once
 
 #include "base/digest.hpp"
+#include "db/store/on_connection.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::store {
 
-namespace sql {
-class Connection;
-}
-
-// The members of rows are the columns in their order: sql::row_of reads them so.
-
-/// One cell of a table of the standard. `table` and `column` are the caller's names.
-struct TableCell {
-  std::string table{};
-  std::string column{};
-  std::int64_t over_nm = 0;
-  std::int64_t up_to_nm = 0;
-  std::optional<std::int64_t> value_nm{};  ///< none: not defined by the standard
-
-  // NOLINTNEXTLINE(modernize-use-nullptr): the zero is the compiler's
-  friend auto operator<=>(const TableCell&, const TableCell&) = default;
-};
-
-/// One size range of a custom tolerance class.
-struct CustomCell {
-  std::string table{};
-  std::string column{};
-  std::int64_t over_nm = 0;
-  std::int64_t up_to_nm = 0;
-  std::int64_t upper_nm = 0;
-  std::int64_t lower_nm = 0;
-
-  // NOLINTNEXTLINE(modernize-use-nullptr): the zero is the compiler's
-  friend auto operator<=>(const CustomCell&, const CustomCell&) = default;
-};
-
-/// All of a revision's numbers, each list sorted by table, column and range.
-struct TableContent {
-  std::vector<TableCell> cells{};
-  std::vector<CustomCell> custom{};
-};
-
-/// Digests the content in sorted order, independent of the order given (canonical_digest.hpp): the
-/// number of cells, the members of each cell in order, then number and members of the custom cells.
-Digest digest_of(const TableContent& content);
+/// Digests the numbers in the order of table, column and range, independent of the order given
+/// (canonical_digest.hpp): the number of cells, of each its table, column, range and value, then
+/// the number of rows of custom classes, of each its feature, class, range and deviations.
+Digest digest_of(const iso286::TableData& content);
 
 struct TableRevision {
   std::int64_t number = 0;  ///< 1, 2, …: measurements refer to it
@@ -59,13 +25,13 @@ struct TableRevision {
 
 struct LoadedTables {
   TableRevision revision{};
-  TableContent content{};
+  Result<iso286::TableData> content;  ///< TablesInconsistent if a table or feature is unknown
   Digest
       computed{};  ///< of the content as loaded: differs from revision.digest when a cell changed
 };
 
 struct TableImport {
-  TableContent content{};
+  iso286::TableData content{};
   std::string source{};
   std::optional<std::int64_t> parent{};
   std::optional<std::string> caller{};
@@ -77,10 +43,8 @@ std::string shown_digits(const Digest& digest);
 
 /// The immutable revisions of the tolerance tables. The newest one is in force. Cells of the
 /// standard that a revision shares with an older one are stored once.
-class TablesStore {
+class TablesStore : public OnConnection<TablesStore> {
  public:
-  explicit TablesStore(sql::Connection& connection);
-
   /// @errors PreconditionFailed when `parent` is not the newest revision (another import came
   ///   first); TableRowsInvalid when two cells are the same or a range is empty.
   Result<TableRevision> import(const TableImport& tables, std::int64_t now_ns);
@@ -91,10 +55,6 @@ class TablesStore {
   /// As `LoadedTables::computed`, without the content. @pre the database sorts texts by bytes.
   Digest compute_digest(std::int64_t number) const;
   std::vector<TableRevision> list() const;  ///< oldest first
-
- private:
-  struct Statements;
-  std::shared_ptr<Statements> statements_;
 };
 
 }  // namespace fitgauge::store

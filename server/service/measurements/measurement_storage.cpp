@@ -48,58 +48,6 @@ Error corrected_before(const Stores& stores, const Measurement& correction, std:
 
 }  // namespace
 
-store::TableContent to_store(const iso286::TableData& data) {
-  store::TableContent content;
-  for (const iso286::TableCell& cell : data.cells) {
-    content.cells.push_back({.table = std::string(name(cell.table)),
-                             .column = cell.column,
-                             .over_nm = cell.range.over.count(),
-                             .up_to_nm = cell.range.up_to.count(),
-                             .value_nm = count_of(cell.value)});
-  }
-  for (const iso286::CustomColumn& column : data.custom_columns) {
-    for (const iso286::CustomRow& row : column.rows) {
-      content.custom.push_back({.table = std::string(word(column.feature)),
-                                .column = column.name,
-                                .over_nm = row.range.over.count(),
-                                .up_to_nm = row.range.up_to.count(),
-                                .upper_nm = row.deviations.upper.count(),
-                                .lower_nm = row.deviations.lower.count()});
-    }
-  }
-  return content;
-}
-
-Result<iso286::TableData> from_store(const store::TableContent& content) {
-  iso286::TableData data;
-  for (const store::TableCell& cell : content.cells) {
-    const auto table = iso286::table_from_name(cell.table);
-    if (!table) {
-      return Error{ErrorCode::TablesInconsistent, "unknown table " + cell.table, cell.table};
-    }
-    data.cells.push_back({.table = *table,
-                          .range = range_of(cell.over_nm, cell.up_to_nm),
-                          .column = cell.column,
-                          .value = length_of(cell.value_nm)});
-  }
-  std::map<std::pair<iso286::Feature, std::string>, std::vector<iso286::CustomRow>> columns;
-  for (const store::CustomCell& cell : content.custom) {
-    const auto feature = iso286::feature_from_word(cell.table);
-    if (!feature) {
-      return Error{ErrorCode::TablesInconsistent, "unknown table " + cell.table, cell.table};
-    }
-    columns[{*feature, cell.column}].push_back(
-        {.range = range_of(cell.over_nm, cell.up_to_nm),
-         .deviations = {.upper = Length::nanometres(cell.upper_nm),
-                        .lower = Length::nanometres(cell.lower_nm)}});
-  }
-  for (auto& [key, rows] : columns) {
-    data.custom_columns.push_back(
-        {.feature = key.first, .name = key.second, .rows = std::move(rows)});
-  }
-  return data;
-}
-
 store::IdempotentRequest to_store(const IdempotencyScope& scope) {
   return {.caller = scope.caller,
           .method = scope.method,

@@ -1,17 +1,10 @@
 #pragma once
 
 #include "db/store/stores.hpp"
-#include "db/store/tables_store.hpp"
 #include "service/log/leaves.hpp"
 #include "service/measurements/measurement_service.hpp"
-#include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::app {
-
-/// Table content between the field's types and the store's plain integers.
-store::TableContent to_store(const iso286::TableData& data);
-/// @errors TablesInconsistent for a table or column the standard does not know.
-Result<iso286::TableData> from_store(const store::TableContent& content);
 
 /// @pre a measurement with a table revision also has the number of this revision
 MeasurementRow to_store(const Measurement& measurement);

@@ -123,7 +123,7 @@ void Check::compare() {
 
 Qualification qualify(std::string version, Timestamp at, const References& references,
                       const iso286::TableData& data) {
-  const std::string revision = "1-" + store::shown_digits(store::digest_of(to_store(data)));
+  const std::string revision = "1-" + store::shown_digits(store::digest_of(data));
   Qualification made{std::move(version), at, revision, false, {}};
   const auto tables = iso286::ToleranceTables::make(data, {revision});
   const std::size_t findings = tables ? 0 : tables.error().details.size();

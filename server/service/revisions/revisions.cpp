@@ -22,8 +22,7 @@ void fill_tables(const Stores& stores, Revision& revision) {
   const auto latest = stores.tables.load_latest();
   if (!latest) return;
   revision.id = latest->revision.id;
-  auto data = from_store({.cells = {}, .custom = latest->content.custom});
-  if (data) revision.columns = std::move(data->custom_columns);
+  if (latest->content) revision.columns = latest->content->custom_columns;
 }
 
 void fill_key(const Stores& stores, Revision& revision) {

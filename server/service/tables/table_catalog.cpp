@@ -30,15 +30,14 @@ TableState audit(const store::LoadedTables& loaded) {
   if (sound.size() == kMostKept) sound.clear();
   auto& kept = sound[{loaded.revision.id, loaded.revision.digest, loaded.computed}];
   if (kept) return {.tables = kept, .number = loaded.revision.number, .findings = {}};
-  const auto data = from_store(loaded.content);
-  if (!data) return failed(loaded.revision, {data.error()});
-  std::vector<Error> findings = iso286::compare_with_compiled_in(*data);
+  if (!loaded.content) return failed(loaded.revision, {loaded.content.error()});
+  std::vector<Error> findings = iso286::compare_with_compiled_in(*loaded.content);
   if (findings.empty() && loaded.computed != loaded.revision.digest) {
     findings.push_back({ErrorCode::TablesInconsistent,
                         "a cell of revision " + loaded.revision.id +
                             " differs from what was stored: its digest does not match"});
   }
-  auto tables = iso286::ToleranceTables::make(*data, {loaded.revision.id});
+  auto tables = iso286::ToleranceTables::make(*loaded.content, {loaded.revision.id});
   if (!tables) {
     const std::vector<Error>& broken = tables.error().details;
     findings.insert(findings.end(), broken.begin(), broken.end());
@@ -60,7 +59,7 @@ Error unknown_revision(std::string_view id) {
 
 Result<store::LoadedTables> load_or_import(Stores& stores, Timestamp now) {
   if (auto latest = stores.tables.load_latest()) return *std::move(latest);
-  const store::TableImport standard{.content = to_store(iso286::compiled_in_tables()),
+  const store::TableImport standard{.content = iso286::compiled_in_tables(),
                                     .source = std::string(kStandardSource),
                                     .parent = {},
                                     .caller = {}};
@@ -157,7 +156,7 @@ void TableCatalog::change(ColumnName column, std::optional<iso286::CustomColumn>
         const auto latest = stores.tables.load_latest().value();
         const TableState state = audit(latest);
         if (state.tables == nullptr) return inconsistent(state.findings);
-        auto data = from_store(latest.content).value();
+        auto data = latest.content.value();
         auto before = column_text(data.custom_columns, column);
         const bool holds = condition(latest.revision.id, before.has_value());
         const Error changed{ErrorCode::PreconditionFailed,
@@ -181,7 +180,7 @@ void TableCatalog::change(ColumnName column, std::optional<iso286::CustomColumn>
         if (after == before && !holds) return changed;
         if (after == before) return Changed{false, latest.revision, state_.get()};
         const std::int64_t now = clock_.now().nanoseconds;
-        TRY(stores.tables.import({.content = to_store(data),
+        TRY(stores.tables.import({.content = data,
                                   .source = "custom column",
                                   .parent = latest.revision.number,
                                   .caller = caller},
@@ -227,18 +226,18 @@ Result<TableCatalog::Received> TableCatalog::receive(
   const auto latest = stores.tables.load_latest().value();
   const store::TableRevision& before = latest.revision;
   if (before.id == id) return Received{.number = before.number, .id = id, .digest = before.digest};
-  auto data = TRY(from_store({.cells = latest.content.cells, .custom = {}}));
+  auto data = TRY(latest.content);
+  const bool had_custom = !data.custom_columns.empty();
   for (const iso286::CustomColumn& column : columns) TRY(iso286::check_custom_column(column));
   data.custom_columns = columns;
   TRY(iso286::ToleranceTables::make(data, {id}));
-  store::TableContent content = to_store(data);
-  const Digest digest = digest_of(content);
+  const Digest digest = store::digest_of(data);
   if (!id.ends_with("-" + store::shown_digits(digest))) {
     return Error{ErrorCode::TablesInconsistent,
                  "the tables differ from the centre's tables of this revision: use the centre's "
                  "version of fitgauge"};
   }
-  const auto imported = TRY(stores.tables.import({.content = std::move(content),
+  const auto imported = TRY(stores.tables.import({.content = std::move(data),
                                                   .source = "centre",
                                                   .parent = before.number,
                                                   .caller = {},
@@ -257,7 +256,7 @@ Result<TableCatalog::Received> TableCatalog::receive(
       .id = id,
       .digest = digest,
       .state = std::make_shared<const TableState>(audit(stores.tables.load_latest().value())),
-      .replaced_own = !latest.content.custom.empty(),
+      .replaced_own = had_custom,
       .replaced_id = before.id,
       .replaced_digest = before.digest};
 }

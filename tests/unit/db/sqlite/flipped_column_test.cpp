@@ -57,8 +57,11 @@ struct Everything : Fixture {
   }
 
   static void fill(Stores& stores, std::int64_t now) {
-    const TableContent content{.cells = {{"it", "IT7", 18, 30, 21}},
-                               .custom = {{"shaft", "x7", 18, 30, 21, 3}}};
+    const auto nm = [](std::int64_t count) { return Length::nanometres(count); };
+    const iso286::NominalSizeRange range{.over = nm(18), .up_to = nm(30)};
+    const iso286::TableData content{
+        .cells = {{iso286::TableId::ItGrades, range, "IT7", nm(21)}},
+        .custom_columns = {{iso286::Feature::Shaft, "x7", {{range, {nm(21), nm(3)}}}}}};
     REQUIRE(stores.tables.import({.content = content, .source = "test", .id = "7-00000000"}, 1)
                 .has_value());
     REQUIRE(stores.keys.create("press-3", Role::Operator, new_token(), 5).has_value());

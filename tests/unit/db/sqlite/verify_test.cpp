@@ -16,8 +16,7 @@ struct VerifyFixture : Fixture {
   VerifyFixture() {
     REQUIRE(append(std::vector<MeasurementRow>(5, sample_row())).has_value());
     REQUIRE(write([](Stores& stores) {
-              return stores.tables.import(
-                  {.content = {.cells = {{"it", "IT7", 18, 30, 21}}}, .source = "test"}, 1);
+              return stores.tables.import({.content = it7(21), .source = "test"}, 1);
             }).has_value());
   }
 
@@ -220,8 +219,7 @@ TEST_CASE("tables that change while rows are being read are known") {
   const auto finding = verifier.first_altered_row([&] {
     if (std::exchange(has_changed, true)) return true;
     const auto revision = fixture.write([](Stores& stores) {
-      return stores.tables.import(
-          {.content = {.cells = {{"it", "IT7", 18, 30, 22}}}, .source = "test", .parent = 1}, 2);
+      return stores.tables.import({.content = it7(22), .source = "test", .parent = 1}, 2);
     });
     REQUIRE(revision.has_value());
     MeasurementRow row = sample_row();

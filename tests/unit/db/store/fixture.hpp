@@ -79,6 +79,14 @@ struct IdRange {
   std::int64_t last = 0;
 };
 
+/// Tables of one cell.
+inline iso286::TableData it7(std::int64_t value_nm) {
+  const iso286::NominalSizeRange range{.over = Length::nanometres(18),
+                                       .up_to = Length::nanometres(30)};
+  return {.cells = {{iso286::TableId::ItGrades, range, "IT7", Length::nanometres(value_nm)}},
+          .custom_columns = {}};
+}
+
 /// Stands for the leaf, which only the application can make.
 inline Digest hash_of(const MeasurementRow& row) {
   CanonicalDigest digest;

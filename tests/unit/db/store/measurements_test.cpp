@@ -77,11 +77,7 @@ MeasurementFilter with_texts(const std::vector<std::pair<TextField, std::string>
 }
 
 void import_tables(Fixture& fixture) {
-  const TableImport tables{
-      .content = {.cells = {{"it", "IT7", 18'000'000, 30'000'000, 21'000}}, .custom = {}},
-      .source = "test",
-      .parent = std::nullopt,
-      .caller = std::nullopt};
+  const TableImport tables{.content = it7(21'000), .source = "test"};
   REQUIRE(
       fixture.write([&](Stores& stores) { return stores.tables.import(tables, 1); }).has_value());
 }

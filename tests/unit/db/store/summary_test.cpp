@@ -65,8 +65,7 @@ struct Shop : Fixture {
       if (i > 5'000 && i < 30'000) row.caller.reset();
     }
     write([](Stores& stores) {
-      return stores.tables.import(
-          {.content = {.cells = {{"it", "IT7", 18, 30, 21}}}, .source = "test"}, 1);
+      return stores.tables.import({.content = it7(21), .source = "test"}, 1);
     });
     sample.add_corrections(random, 40);
     append_from(0);

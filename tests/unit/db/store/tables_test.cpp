@@ -8,14 +8,29 @@ using namespace fitgauge::store::test;
 
 namespace {
 
-TableContent iso_cells() {
-  return {.cells = {{"it_grades", "IT7", 18'000'000, 30'000'000, 21'000},
-                    {"it_grades", "IT7", 10'000'000, 18'000'000, 18'000},
-                    {"shaft", "ei_t", 10'000'000, 14'000'000, std::nullopt}},
-          .custom = {}};
+iso286::NominalSizeRange range(std::int64_t over_nm, std::int64_t up_to_nm) {
+  return {.over = Length::nanometres(over_nm), .up_to = Length::nanometres(up_to_nm)};
 }
 
-Result<TableRevision> import(Fixture& fixture, TableContent content,
+iso286::TableData iso_cells() {
+  using enum iso286::TableId;
+  return {
+      .cells = {{ItGrades, range(18'000'000, 30'000'000), "IT7", Length::nanometres(21'000)},
+                {ItGrades, range(10'000'000, 18'000'000), "IT7", Length::nanometres(18'000)},
+                {ShaftFundamentalDeviations, range(10'000'000, 14'000'000), "ei_t", std::nullopt}},
+      .custom_columns = {}};
+}
+
+/// The class H7 with one row.
+std::vector<iso286::CustomColumn> custom_h7(iso286::NominalSizeRange range, std::int64_t upper_nm,
+                                            std::int64_t lower_nm) {
+  return {
+      {iso286::Feature::Hole,
+       "H7",
+       {{range, {.upper = Length::nanometres(upper_nm), .lower = Length::nanometres(lower_nm)}}}}};
+}
+
+Result<TableRevision> import(Fixture& fixture, iso286::TableData content,
                              std::optional<std::int64_t> parent) {
   return fixture.write([&](Stores& stores) {
     return stores.tables.import({.content = std::move(content),
@@ -35,14 +50,14 @@ std::optional<LoadedTables> latest(Fixture& fixture) {
 }  // namespace
 
 TEST_CASE("the digest of tables does not depend on their order and sees every number") {
-  const TableContent content = iso_cells();
-  TableContent other = content;
+  const iso286::TableData content = iso_cells();
+  iso286::TableData other = content;
   std::swap(other.cells[0], other.cells[2]);
   CHECK(digest_of(other) == digest_of(content));
-  other.cells[0].value_nm = 0;
+  other.cells[0].value = Length();
   CHECK(digest_of(other) != digest_of(content));
   other = content;
-  other.custom.push_back({"hole", "H7", 0, 1, 0, 0});
+  other.custom_columns = custom_h7(range(0, 1), 0, 0);
   CHECK(digest_of(other) != digest_of(content));
 }
 
@@ -60,21 +75,22 @@ TEST_CASE("a revision is loaded as it was imported") {
   const auto loaded = latest(fixture);
   REQUIRE(loaded.has_value());
   CHECK(loaded->computed == loaded->revision.digest);
-  CHECK(loaded->content.cells.size() == 3);
-  CHECK(loaded->content.cells[0] == iso_cells().cells[1]);
-  CHECK(loaded->content.cells[2].value_nm == std::nullopt);
+  REQUIRE(loaded->content.has_value());
+  CHECK(loaded->content->cells.size() == 3);
+  CHECK(loaded->content->cells[0] == iso_cells().cells[1]);
+  CHECK(loaded->content->cells[2].value == std::nullopt);
 }
 
 TEST_CASE("a custom column is a revision of its own on the same cells") {
   Fixture fixture;
   REQUIRE(import(fixture, iso_cells(), std::nullopt).has_value());
-  TableContent content = iso_cells();
-  content.custom = {{"hole", "H7", 18'000'000, 30'000'000, 15'000, -3'000}};
+  iso286::TableData content = iso_cells();
+  content.custom_columns = custom_h7(range(18'000'000, 30'000'000), 15'000, -3'000);
   const auto second = import(fixture, content, 1);
   REQUIRE(second.has_value());
   CHECK(second->number == 2);
   CHECK(second->parent == 1);
-  CHECK(latest(fixture)->content.custom == content.custom);
+  CHECK(latest(fixture)->content->custom_columns == content.custom_columns);
 
   const auto by_id = [&](const std::string& id) {
     return *fixture.read([&](const Stores& stores) -> Result<std::optional<LoadedTables>> {
@@ -99,14 +115,23 @@ TEST_CASE("an import on top of an outdated revision is refused") {
 
 TEST_CASE("cells that are not a table are refused with their place") {
   Fixture fixture;
-  TableContent content = iso_cells();
+  iso286::TableData content = iso_cells();
   SUBCASE("twice") { content.cells.push_back(content.cells[0]); }
-  SUBCASE("empty range") { content.cells[0].up_to_nm = content.cells[0].over_nm; }
-  SUBCASE("lower above upper") { content.custom = {{"hole", "H7", 0, 1, -1, 0}}; }
+  SUBCASE("empty range") { content.cells[0].range.up_to = content.cells[0].range.over; }
+  SUBCASE("lower above upper") { content.custom_columns = custom_h7(range(0, 1), -1, 0); }
   const auto refused = import(fixture, content, std::nullopt);
   REQUIRE(refused.has_error());
   CHECK(refused.error().code == ErrorCode::TableRowsInvalid);
   CHECK_FALSE(refused.error().where.empty());
+}
+
+TEST_CASE("a table that no version knows is no content") {
+  Fixture fixture;
+  REQUIRE(import(fixture, iso_cells(), std::nullopt).has_value());
+  fixture.execute("UPDATE table_cells SET table_name = 'it' WHERE column_name = 'IT7'");
+  const auto loaded = latest(fixture);
+  CHECK(loaded->content.error() == Error{ErrorCode::TablesInconsistent, "unknown table it", "it"});
+  CHECK(loaded->computed != loaded->revision.digest);
 }
 
 TEST_CASE("a changed cell shows in the computed digest") {
