@@ -103,6 +103,7 @@ std::int64_t origin_of(std::string_view note, const LogService::Logs& logs) {
   return 0;
 }
 
+  app->clock_ = &clock;
 /// Returns the number of measurements that a checkpoint covers.
 std::uint64_t size_of(const Result<std::optional<std::string>>& note) {
   const auto checkpoint = tlog::parse_checkpoint(note && *note ? **note : std::string());
@@ -173,31 +174,27 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
                                     .attach = attach,
                                     .ask_centre = options.ask_centre,
                                     .tell = options.log_told}));
-  const Origins& origins = app->log_->origins();
+  const Records records = app->records();
   app->intake_ = std::make_unique<LogIntake>(
-      *app->database_, *app->tables_, app->log_->origins(), clock,
-      [tell = options.log_told](std::string_view event, const std::string& detail) {
+      records, [tell = options.log_told](std::string_view event, const std::string& detail) {
         if (tell) tell(event, detail);
       });
-  app->clock_ = &clock;
-  app->revisions_ = std::make_unique<RevisionFeed>(*app->database_, *app->tables_, origins);
+  app->revisions_ = std::make_unique<RevisionFeed>(records);
   app->keys_ = TRY(KeyService::open(*app->database_, clock, options.log_told));
   app->measurements_ = std::make_unique<MeasurementService>(
-      *app->database_, *app->tables_, origins,
-      MeasurementServiceOptions{.most_waiting = options.queue_limit,
-                                .commit_each = options.commit_each});
+      records, MeasurementServiceOptions{.most_waiting = options.queue_limit,
+                                         .commit_each = options.commit_each});
   app->files_ = std::make_unique<FileService>(*app->database_, clock);
   app->documents_ = std::make_unique<DocumentService>(*app->database_, clock, options.has_centre);
   if (!attach) {
     app->jobs_ = std::make_unique<Jobs>(options.queue_limit);
-    app->runs_ = std::make_unique<RunService>(
-        *app->database_, *app->tables_, clock, origins, app->jobs_->orders,
-        RunServiceOptions{.workers = options.run_workers,
-                          .shares = is_on_server,
-                          .keeps_newest = options.keeps_newest_run});
+    app->runs_ =
+        std::make_unique<RunService>(records, app->jobs_->orders,
+                                     RunServiceOptions{.workers = options.run_workers,
+                                                       .shares = is_on_server,
+                                                       .keeps_newest = options.keeps_newest_run});
   }
-  app->events_ = std::make_unique<EventService>(*app->database_, *app->tables_, origins,
-                                                app->committed_, options.event_retention);
+  app->events_ = std::make_unique<EventService>(records, app->committed_, options.event_retention);
   if (!attach) app->log_->start();
   app->stage_ = Stage::Open;
   return app;
@@ -264,9 +261,7 @@ Result<void> Application::backup(const std::filesystem::path& file) const {
   return keep_file(beside += ".checkpoint", **checkpoint, true);
 }
 
-RevisionIntake Application::revision_intake(RevisionIntake::Tell tell) {
-  return {*database_, *tables_, log_->origins(), *clock_, std::move(tell)};
-}
+RevisionIntake Application::revision_intake(Tell tell) { return {records(), std::move(tell)}; }
 
 std::optional<std::string> Application::check_leaf(const MeasurementRow& row) const {
   const Digest leaf = LeafMaker()(from_store(row, row_names(*tables_, log_->origins())));

@@ -20,8 +20,7 @@ struct ApplicationOptions : store::OpenOptions {
   std::function<std::optional<AtCentre>(std::string_view digits)> ask_centre{};
   bool has_centre = false;              ///< documents of a centre can only be changed there
   std::string origin_name = "station";  ///< of the log; see LogOptions
-  /// Events of the log, and what the storage has purged: a name and a sentence.
-  std::function<void(std::string_view event, const std::string& detail)> log_told{};
+  Tell log_told{};  ///< receives events of the log, and what the storage has purged
 };
 
 /// The service without its network: the database and one object per use case. Thread-safe after
@@ -38,8 +37,8 @@ class Application {
   LogService& log() { return *log_; }
   LogIntake& intake() { return *intake_; }
   RevisionFeed& revisions() { return *revisions_; }
-  /// Stores revisions from the centre. @param tell receives events for the log.
-  RevisionIntake revision_intake(RevisionIntake::Tell tell);
+  /// Stores revisions from the centre.
+  RevisionIntake revision_intake(Tell tell);
   LogOutbox outbox() { return {*database_, *tables_, *log_}; }
   MeasurementService& measurements() { return *measurements_; }
   EventService& events() { return *events_; }
@@ -79,11 +78,13 @@ class Application {
   Result<Verification> verification_of(Result<store::VerifyReport> report) const;
   bool take_names(const Stores& stores);
   std::optional<std::string> check_leaf(const MeasurementRow& row) const;
+  Records records() const { return {*database_, *tables_, log_->origins(), *clock_}; }
   std::optional<tlog::Hash> kept_node(std::int64_t origin, const tlog::Node& node) const;
 
   // Declared in the order of construction: each member uses only those above it.
   std::filesystem::path directory_;
   bool is_on_server_ = false;
+  const Clock* clock_ = nullptr;
   CommitSignal committed_;
   enum class Stage { Opening, Open, Closing };
   std::atomic<Stage> stage_ = Stage::Opening;
@@ -93,7 +94,6 @@ class Application {
   std::unique_ptr<LogService> log_;
   std::unique_ptr<LogIntake> intake_;
   std::unique_ptr<RevisionFeed> revisions_;
-  const Clock* clock_ = nullptr;
   std::unique_ptr<MeasurementService> measurements_;
   std::unique_ptr<EventService> events_;
   std::unique_ptr<KeyService> keys_;

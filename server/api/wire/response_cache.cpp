@@ -14,7 +14,7 @@ constexpr std::size_t kOverhead = 256;
 }  // namespace
 
 void tables_of(app::TableCatalog& catalog, const Request& request,
-               app::TableCatalog::Callback<app::TableCatalog::Tables> done) {
+               app::Done<app::TableCatalog::Tables> done) {
   const auto revision = request.text("revision");
   if (!revision) return done(catalog.tables());
   catalog.at_revision(std::string(*revision), std::move(done));

@@ -10,7 +10,7 @@ namespace fitgauge::api {
 /// Returns the current tables, or the revision of the request.
 /// @errors RevisionUnknown, TablesInconsistent, StorageUnavailable.
 void tables_of(app::TableCatalog& catalog, const Request& request,
-               app::TableCatalog::Callback<app::TableCatalog::Tables> done);
+               app::Done<app::TableCatalog::Tables> done);
 
 using TableHandler =
     std::function<Result<Response>(const Request&, const iso286::ToleranceTables&)>;

@@ -30,8 +30,6 @@ using NamedDocument = store::Document;
 /// CatalogueUnknown.
 class DocumentService {
  public:
-  template <class T>
-  using Done = std::function<void(Result<T>)>;
   /// Decides from the current text, if there is a document, whether the change is allowed; called
   /// in the transaction of the change. An empty function allows every change.
   using Precondition = std::function<bool(std::optional<std::string_view> text)>;

@@ -35,9 +35,7 @@ struct KnownCaller {
 /// command line also changes them. Thread-safe.
 class KeyService {
  public:
-  /// Receives `key_created` and `key_revoked` with the key's name and role, from any thread.
-  using Tell = std::function<void(std::string_view event, const std::string& detail)>;
-
+  /// @param tell receives `key_created` and `key_revoked` with the key's name and role.
   /// @errors StorageUnavailable.
   static Result<std::unique_ptr<KeyService>> open(Database& database, const Clock& clock,
                                                   Tell tell);

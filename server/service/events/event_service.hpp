@@ -72,17 +72,11 @@ struct Event {
 };
 
 /// Events in order, for readers that reconnect. Thread-safe; nothing here blocks.
-class EventService {
+class EventService : Records {
  public:
   /// @param retention number of measurements and of stored events that a reader may be behind.
-  /// @param origins must outlive the service.
-  EventService(Database& database, const TableCatalog& tables, const Origins& origins,
-               CommitSignal& signal, std::int64_t retention)
-      : database_(database),
-        tables_(tables),
-        origins_(origins),
-        signal_(signal),
-        retention_(retention) {}
+  EventService(const Records& records, CommitSignal& signal, std::int64_t retention)
+      : Records(records), signal_(signal), retention_(retention) {}
 
   /// The place of a reader: readers at the same place get the same page.
   struct Place {
@@ -138,9 +132,6 @@ class EventService {
   using Readers = std::vector<PageDone>;
   struct PageWork;
 
-  Database& database_;
-  const TableCatalog& tables_;
-  const Origins& origins_;
   CommitSignal& signal_;
   std::int64_t retention_;
   std::mutex mutex_;

@@ -49,9 +49,6 @@ class DraftDisk final : public interpreter::ControlDisk {
 /// thread or, when refused at once, on the caller's. Thread-safe.
 class FileService {
  public:
-  template <class T>
-  using Done = std::function<void(Result<T>)>;
-
   FileService(Database& database, const Clock& clock) : database_(database), clock_(clock) {}
 
   /// Decides from the current bytes, if there is a file, whether the change is allowed; called in

@@ -38,21 +38,12 @@ struct ForwardedBatch {
 
 /// Stores batches of stations: each batch must continue exactly at the end of its log here, and is
 /// stored whole or not at all. Thread-safe.
-class LogIntake {
+class LogIntake : Records {
  public:
   /// Most rows of a batch.
   static constexpr std::size_t kMostRows = 10'000;
 
-  /// The event's name and a sentence, for the log of the service.
-  using Tell = std::function<void(std::string_view event, const std::string& detail)>;
-
-  LogIntake(Database& database, TableCatalog& tables, Origins& origins, const Clock& clock,
-            Tell tell)
-      : database_(database),
-        tables_(tables),
-        origins_(origins),
-        clock_(clock),
-        tell_(std::move(tell)) {}
+  LogIntake(const Records& records, Tell tell) : Records(records), tell_(std::move(tell)) {}
 
   /// The part of a log that the centre has.
   struct Head {
@@ -88,10 +79,6 @@ class LogIntake {
   Result<void> store_notes(Stores& stores, const ForwardedBatch& batch, std::int64_t station) const;
   void fork(const ForwardedBatch& batch, const Known& known);
 
-  Database& database_;
-  TableCatalog& tables_;
-  Origins& origins_;
-  const Clock& clock_;
   const Tell tell_;
 };
 

@@ -29,8 +29,7 @@ struct LogOptions {
   /// Returns the centre's state of the history with these digits; none if it does not respond.
   /// Called once, when the log is opened; not set without a centre. May block.
   std::function<std::optional<AtCentre>(std::string_view digits)> ask_centre{};
-  /// The event's name and a sentence, for the log of the service; called on any thread.
-  std::function<void(std::string_view event, const std::string& detail)> tell{};
+  Tell tell{};
 };
 
 /// The log of the data folder: a Merkle tree over its measurements that grows after the commits,
@@ -93,9 +92,6 @@ class LogService {
 
   /// The public keys, one a line, the newest first.
   std::string verifier_keys() const { return *verifier_keys_.get(); }
-
-  template <class T>
-  using Done = std::function<void(Result<T>)>;
 
   struct Proof {
     std::uint64_t index = 0;

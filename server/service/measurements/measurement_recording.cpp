@@ -24,8 +24,6 @@ class MeasurementQueue : public std::enable_shared_from_this<MeasurementQueue> {
         most_waiting_(most_waiting),
         each_apart_(each_apart) {}
 
-  template <class T>
-  using Done = MeasurementService::Done<T>;
   using Render = MeasurementService::Render;
 
   /// Records like MeasurementService::record, for measurements that correct none.
@@ -246,13 +244,10 @@ Error internal_error(const std::exception& bug) {
 
 }  // namespace
 
-MeasurementService::MeasurementService(Database& database, const TableCatalog& tables,
-                                       const Origins& origins,
+MeasurementService::MeasurementService(const Records& records,
                                        const MeasurementServiceOptions& options)
-    : database_(database),
-      tables_(tables),
-      origins_(origins),
-      queue_(std::make_shared<MeasurementQueue>(database, origins.own(), options.most_waiting,
+    : Records(records),
+      queue_(std::make_shared<MeasurementQueue>(database_, origins_.own(), options.most_waiting,
                                                 options.commit_each)) {}
 
 void MeasurementService::find_answer(const IdempotencyScope& scope,

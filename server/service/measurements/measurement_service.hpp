@@ -158,11 +158,9 @@ class Rendering {
 
 /// Stores and reads measurements. Functions do not block unless documented; `done` is called
 /// exactly once, on a storage thread or, if refused at once, on the caller's. Thread-safe.
-class MeasurementService {
+class MeasurementService : Records {
  public:
-  /// @param origins outlive the service.
-  MeasurementService(Database& database, const TableCatalog& tables, const Origins& origins,
-                     const MeasurementServiceOptions& options);
+  MeasurementService(const Records& records, const MeasurementServiceOptions& options);
 
   /// @errors MeasurementUnknown.
   Result<RecordName> parse_id(std::string_view text) const {
@@ -171,8 +169,6 @@ class MeasurementService {
   /// @errors RunUnknown.
   Result<RecordName> parse_run(std::string_view text) const { return parse_run_id(text, origins_); }
 
-  template <class T>
-  using Done = std::function<void(Result<T>)>;
   /// Begins an answer; called on the writer thread, and again if the store is repeated.
   using Render = std::function<std::unique_ptr<Rendering>()>;
 
@@ -236,9 +232,6 @@ class MeasurementService {
   template <class Work>
   void submit(const std::optional<IdempotencyScope>& scope, Work work, Done<Answer> done);
 
-  Database& database_;
-  const TableCatalog& tables_;
-  const Origins& origins_;
   const std::shared_ptr<MeasurementQueue> queue_;  ///< shared with its jobs
 };
 

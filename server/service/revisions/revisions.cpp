@@ -67,7 +67,8 @@ std::optional<RevisionKind> revision_kind_from_word(std::string_view text) {
   return std::nullopt;
 }
 
-void RevisionFeed::read(std::string_view station, std::string position, Done done) const {
+void RevisionFeed::read(std::string_view station, std::string position,
+                        Done<RevisionPage> done) const {
   database_.readers().submit([this, station = std::string(station), position = std::move(position)](
                                  const Stores& stores) { return page(stores, station, position); },
                              std::move(done));

@@ -55,44 +55,28 @@ struct RevisionPage {
 
 /// Revisions of this centre for its stations: tables with custom classes, keys of viewers and
 /// operators by their hashes, setups, plans, and corrections of a station's records. Thread-safe.
-class RevisionFeed {
+class RevisionFeed : Records {
  public:
-  using Done = std::function<void(Result<RevisionPage>)>;
-
-  RevisionFeed(Database& database, const TableCatalog& tables, const Origins& origins)
-      : database_(database), tables_(tables), origins_(origins) {}
+  explicit RevisionFeed(const Records& records) : Records(records) {}
 
   /// Returns the changes after a position; all changes if this folder did not give the position
   /// out. Of each document only the last revision.
   /// @param station digits of its origin, for its corrections.
   /// @errors those of storage.
-  void read(std::string_view station, std::string position, Done done) const;
+  void read(std::string_view station, std::string position, Done<RevisionPage> done) const;
 
  private:
   Result<RevisionPage> page(const Stores& stores, std::string_view station,
                             std::string_view position) const;
   bool fill(const Stores& stores, const std::string& name, Revision& revision) const;
-
-  Database& database_;
-  const TableCatalog& tables_;
-  const Origins& origins_;
 };
 
 /// Stores revisions of the centre at a station. They replace documents of the same name here;
 /// documents that this folder has made are renamed, and a key of this folder stays. Other documents
 /// do not change. Used by one thread.
-class RevisionIntake {
+class RevisionIntake : Records {
  public:
-  /// The event's name and a sentence, for the log of the service.
-  using Tell = std::function<void(std::string_view event, const std::string& detail)>;
-
-  RevisionIntake(Database& database, TableCatalog& tables, Origins& origins, const Clock& clock,
-                 Tell tell)
-      : database_(database),
-        tables_(tables),
-        origins_(origins),
-        clock_(clock),
-        tell_(std::move(tell)) {}
+  RevisionIntake(const Records& records, Tell tell) : Records(records), tell_(std::move(tell)) {}
 
   struct Outcome {
     int taken = 0;    ///< that were new here
@@ -108,10 +92,6 @@ class RevisionIntake {
   Result<void> prepare(const RevisionPage& page);
   void tell_once(std::string_view event, const std::string& detail);
 
-  Database& database_;
-  TableCatalog& tables_;
-  Origins& origins_;
-  const Clock& clock_;
   const Tell tell_;
   std::set<std::string> told_{};
 };

@@ -14,14 +14,11 @@ Error stopping() { return {ErrorCode::ShuttingDown, "the service is shutting dow
 
 }  // namespace
 
-RunService::RunService(Database& database, const TableCatalog& tables, const Clock& clock,
-                       const Origins& origins, JobPool& orders, RunServiceOptions options)
-    : database_(database),
-      clock_(clock),
-      origins_(origins),
+RunService::RunService(const Records& records, JobPool& orders, RunServiceOptions options)
+    : Records(records),
       options_(options),
-      live_tables_(tables),
-      stored_(database),
+      live_tables_(tables_),
+      stored_(database_),
       control_tables_(stored_),
       meshes_(stored_),
       orders_(orders),

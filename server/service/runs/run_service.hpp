@@ -21,15 +21,10 @@ struct RunServiceOptions {
 /// Checks programs, runs them on its workers and stores the results. Thread-safe. Functions with
 /// `done` do not block: it is called exactly once, on a storage thread or, if refused at once, on
 /// the caller's.
-class RunService {
+class RunService : Records {
  public:
-  template <class T>
-  using Done = std::function<void(Result<T>)>;
-
-  /// @param origins outlive the service, as the pool does.
-  /// @param orders pool for calls of the functions that block
-  RunService(Database& database, const TableCatalog& tables, const Clock& clock,
-             const Origins& origins, JobPool& orders, RunServiceOptions options);
+  /// @param orders pool for calls of the functions that block; outlives the service
+  RunService(const Records& records, JobPool& orders, RunServiceOptions options);
   RunService& operator=(RunService&&) = delete;  // neither copied nor moved
   ~RunService();
 
@@ -164,9 +159,6 @@ class RunService {
   Result<void> take_over(const store::Run& run);
   Result<std::shared_ptr<ActiveRun>> queue(std::shared_ptr<ActiveRun> active);
 
-  Database& database_;
-  const Clock& clock_;
-  const Origins& origins_;
   const RunServiceOptions options_;
   LiveTables live_tables_;
   StoredDisk stored_;

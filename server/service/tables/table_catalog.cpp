@@ -107,7 +107,7 @@ Result<TableCatalog::Tables> TableCatalog::tables() const {
   return inconsistent(current->findings);
 }
 
-void TableCatalog::at_revision(std::string revision, Callback<Tables> done) {
+void TableCatalog::at_revision(std::string revision, Done<Tables> done) {
   const auto current = state();
   if (current->tables != nullptr && current->tables->revision().id == revision) {
     return done(current->tables);
@@ -124,7 +124,7 @@ void TableCatalog::at_revision(std::string revision, Callback<Tables> done) {
 }
 
 void TableCatalog::put_column(iso286::CustomColumn column, Condition condition,
-                              std::optional<std::string> caller, Callback<ColumnStored> done) {
+                              std::optional<std::string> caller, Done<ColumnStored> done) {
   if (const auto checked = iso286::check_custom_column(column); !checked) {
     return done(checked.error());
   }
@@ -134,14 +134,14 @@ void TableCatalog::put_column(iso286::CustomColumn column, Condition condition,
 }
 
 void TableCatalog::remove_column(iso286::Feature feature, std::string name, Condition condition,
-                                 std::optional<std::string> caller, Callback<ColumnStored> done) {
+                                 std::optional<std::string> caller, Done<ColumnStored> done) {
   change({feature, std::move(name)}, {}, std::move(condition), std::move(caller), std::move(done));
 }
 
 /// @param to none: removes the column
 void TableCatalog::change(ColumnName column, std::optional<iso286::CustomColumn> to,
                           Condition condition, std::optional<std::string> caller,
-                          Callback<ColumnStored> done) {
+                          Done<ColumnStored> done) {
   struct Changed {
     bool created = false;
     store::TableRevision revision;

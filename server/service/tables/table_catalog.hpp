@@ -21,8 +21,6 @@ struct TableState {
 class TableCatalog {
  public:
   using Tables = std::shared_ptr<const iso286::ToleranceTables>;
-  template <class T>
-  using Callback = std::function<void(Result<T>)>;
 
   /// Loads the latest revision, or imports the compiled-in tables into a new database. Tables that
   /// fail their audit are not an error here: see state().
@@ -40,7 +38,7 @@ class TableCatalog {
 
   /// The tables of a stored revision. @errors RevisionUnknown, TablesInconsistent,
   /// StorageUnavailable.
-  void at_revision(std::string revision, Callback<Tables> done);
+  void at_revision(std::string revision, Done<Tables> done);
 
   struct ColumnName {
     iso286::Feature feature = iso286::Feature::Hole;
@@ -58,7 +56,7 @@ class TableCatalog {
   /// @errors TableRowsInvalid, PreconditionFailed, Forbidden (the centre's), StorageUnavailable,
   ///   StorageBusy.
   void put_column(iso286::CustomColumn column, Condition condition,
-                  std::optional<std::string> caller, Callback<ColumnStored> done);
+                  std::optional<std::string> caller, Done<ColumnStored> done);
 
   /// Tables of a centre, stored and not yet in force.
   struct Received {
@@ -100,7 +98,7 @@ class TableCatalog {
 
   /// Returns to the standard. @errors ClassUnknown if the class is not custom; those of put_column.
   void remove_column(iso286::Feature feature, std::string name, Condition condition,
-                     std::optional<std::string> caller, Callback<ColumnStored> done);
+                     std::optional<std::string> caller, Done<ColumnStored> done);
 
  private:
   TableCatalog(Database& database, const Clock& clock, bool has_centre)
@@ -110,7 +108,7 @@ class TableCatalog {
   std::int64_t remember(const Stores& stores);
 
   void change(ColumnName column, std::optional<iso286::CustomColumn> to, Condition condition,
-              std::optional<std::string> caller, Callback<ColumnStored> done);
+              std::optional<std::string> caller, Done<ColumnStored> done);
 
   Database& database_;
   const Clock& clock_;
