@@ -28,23 +28,6 @@ class StoredDisk final : public interpreter::ControlDisk {
   Database& database_;
 };
 
-/// A disk on which one file has the text that is being written, stored or not. Thread-safe as the
-/// disk below.
-class DraftDisk final : public interpreter::ControlDisk {
- public:
-  /// @param inner outlives the disk.
-  DraftDisk(const interpreter::ControlDisk& inner, const interpreter::ControlPath& path,
-            std::string text);
-
-  std::optional<interpreter::ControlFile> find(const interpreter::ControlPath& path) const override;
-  std::optional<std::string> revision(const interpreter::ControlPath& path) const override;
-  bool has_directory(std::string_view directory) const override;
-
- private:
-  const interpreter::ControlDisk& inner_;
-  const interpreter::ControlFile draft_;
-};
-
 /// The files of the control's disk. Nothing here blocks; `done` comes exactly once, on a storage
 /// thread or, when refused at once, on the caller's. Thread-safe.
 class FileService {

@@ -84,7 +84,11 @@ Result<RunService::Diagnostics> RunService::check_with(Check find_all,
   const interpreter::ProjectingDisk disk(stored_, live_tables_.projections());
   Allowance allowance(kPreparingTime, kPreparingMemory, orders_.stop_token());
   if (!draft) return find_all(path, disk, programs_, allowance);
-  return find_all(path, DraftDisk(disk, path, *std::move(draft)), programs_, allowance);
+  // Like a file that a run has written, a draft is not in the cache.
+  interpreter::OutputBudget budget(draft->size());
+  interpreter::RunFiles files(disk, budget, 1);
+  static_cast<void>(files.write(path, *std::move(draft)));
+  return find_all(path, files, programs_, allowance);
 } catch (const store::StorageFailure& failure) {
   return failure.error();
 }
