@@ -41,56 +41,6 @@ std::optional<std::string> check_verdict(const MeasurementRow& row, const RowNam
 
 constexpr std::string_view kOfNoOrigin = "is of a folder that is not known: its origin was altered";
 
-/// Names of the numbers in rows. It reads them again for rows that another daemon has stored since
-/// the start. One thread at a time.
-class LaterNames {
- public:
-  LaterNames(Database& database, const TableCatalog& tables, const Origins& origins)
-      : database_(database), tables_(tables), origins_(origins) {}
-
-  RowNames names() const {
-    return {.revision_id =
-                [this](std::int64_t number) {
-                  const std::string_view known = tables_.revision_id(number);
-                  return known.empty() ? find(revisions_, number) : known;
-                },
-            .origin =
-                [this](std::int64_t origin, std::int64_t number) {
-                  const std::string_view known = origins_.digits(origin, number);
-                  return known.empty() ? find(digits_, origin) : known;
-                }};
-  }
-
- private:
-  using Names = std::map<std::int64_t, std::string>;
-
-  std::string_view find(const Names& names, std::int64_t number) const {
-    if (!names.contains(number)) read();
-    const auto found = names.find(number);
-    return found == names.end() ? std::string_view() : found->second;
-  }
-
-  void read() const {
-    (void)database_.readers().wait([this](const Stores& stores) {
-      for (const store::TableRevision& revision : stores.tables.list()) {
-        revisions_.emplace(revision.number, revision.id);
-      }
-      for (const auto& revision : stores.origins.revisions()) {
-        revisions_.emplace(-revision.number, revision.id);
-      }
-      for (const auto& origin : stores.origins.list()) {
-        digits_.emplace(origin.number, origin.digits);
-      }
-    });
-  }
-
-  Database& database_;
-  const TableCatalog& tables_;
-  const Origins& origins_;
-  mutable Names revisions_;
-  mutable Names digits_;
-};
-
 /// The log of a checkpoint; the log of this folder, if it is of an unknown one.
 std::int64_t origin_of(std::string_view note, const LogService::Logs& logs) {
   const auto checkpoint = tlog::parse_checkpoint(note);
@@ -103,7 +53,6 @@ std::int64_t origin_of(std::string_view note, const LogService::Logs& logs) {
   return 0;
 }
 
-  app->clock_ = &clock;
 /// Returns the number of measurements that a checkpoint covers.
 std::uint64_t size_of(const Result<std::optional<std::string>>& note) {
   const auto checkpoint = tlog::parse_checkpoint(note && *note ? **note : std::string());
@@ -154,6 +103,7 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
     };
   }
   app->directory_ = options.directory;
+  app->clock_ = &clock;
   app->is_on_server_ = is_on_server;
   open_options.names_changed = [app = app.get()](const Stores& stores) {
     return app->stage_ == Stage::Open && app->take_names(stores);
@@ -268,6 +218,29 @@ std::optional<std::string> Application::check_leaf(const MeasurementRow& row) co
   return leaf == row.hash ? std::nullopt : std::optional(altered_finding());
 }
 
+/// Reads the names again for rows that another daemon has stored since the start.
+RowNames Application::later_names() const {
+  const auto read = [this] {
+    (void)database_->readers().wait([this](const Stores& stores) {
+      tables_->remember(stores);
+      for (const auto& origin : stores.origins.list()) {
+        log_->origins().remember(origin.number, origin.digits);
+      }
+    });
+  };
+  const RowNames known = row_names(*tables_, log_->origins());
+  return {.revision_id =
+              [=](std::int64_t number) {
+                if (known.revision_id(number).empty()) read();
+                return known.revision_id(number);
+              },
+          .origin =
+              [=](std::int64_t origin, std::int64_t number) {
+                if (known.origin(origin, number).empty()) read();
+                return known.origin(origin, number);
+              }};
+}
+
 Result<Application::Verification> Application::verify(
     const std::map<std::string, std::string>& checkpoints) const {
   // Reads the daemon's own checkpoints before the rows, so that the rows have everything they
@@ -278,8 +251,7 @@ Result<Application::Verification> Application::verify(
     const auto own = read_small_file(file);
     if (own && *own && !(*own)->empty()) notes.emplace(file.string(), **own);
   }
-  const LaterNames later(*database_, *tables_, log_->origins());
-  const RowNames names = later.names();
+  const RowNames names = later_names();
   const auto logs = LogService::logs(*database_);
   if (!logs && logs.error().code != ErrorCode::StorageCorrupt) return logs.error();
   if (!logs) {  // the log contradicts itself: a finding, and there may be more

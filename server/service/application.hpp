@@ -79,6 +79,7 @@ class Application {
   bool take_names(const Stores& stores);
   std::optional<std::string> check_leaf(const MeasurementRow& row) const;
   Records records() const { return {*database_, *tables_, log_->origins(), *clock_}; }
+  RowNames later_names() const;
   std::optional<tlog::Hash> kept_node(std::int64_t origin, const tlog::Node& node) const;
 
   // Declared in the order of construction: each member uses only those above it.

@@ -27,6 +27,7 @@ using store::Stores;
 class LogService;
 class Origins;
 class TableCatalog;
+struct RowNames;
 
 /// Receives the name of an event and a sentence, for the log of the service. Called on any thread.
 using Tell = std::function<void(std::string_view event, const std::string& detail)>;

@@ -279,7 +279,6 @@ void TableCatalog::take(const Stores& stores) {
   put_in_force(std::make_shared<const TableState>(audit(stores.tables.load(newest).value())));
 }
 
-/// @returns the number of the newest of this folder
 std::int64_t TableCatalog::remember(const Stores& stores) {
   std::int64_t newest = 0;
   for (const auto& revision : stores.tables.list()) {

@@ -84,6 +84,9 @@ class TableCatalog {
   std::string_view revision_id(std::int64_t number) const;
   /// Loads a revision of another folder, under a number below 0.
   void remember(std::int64_t number, std::string_view id);
+  /// Loads the ids of all revisions. Used inside a job.
+  /// @returns the number of the newest of this folder
+  std::int64_t remember(const Stores& stores);
 
   /// Numbers the editions of the other standards that measurements use, if they have no number yet.
   /// @errors StorageUnavailable.
@@ -105,7 +108,6 @@ class TableCatalog {
       : database_(database), clock_(clock), has_centre_(has_centre) {}
 
   void put_in_force(std::shared_ptr<const TableState> state);
-  std::int64_t remember(const Stores& stores);
 
   void change(ColumnName column, std::optional<iso286::CustomColumn> to, Condition condition,
               std::optional<std::string> caller, Done<ColumnStored> done);
