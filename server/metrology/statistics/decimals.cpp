@@ -50,39 +50,14 @@ bool take_exponent(std::string_view& rest, int& exponent) {
   return true;
 }
 
-template <class Real>
-Real rounded(const Exact& value) {
-  Integer top = numerator(value);
-  Integer bottom = denominator(value);
-  if (top == 0) return 0;
-  const bool negative = top < 0;
-  if (negative) top = -top;
-  // A quotient of 66 or 67 bits, its last bit set if there is a remainder, rounds like the
-  // fraction.
-  constexpr int kBits = 66;
-  const int shift = kBits + static_cast<int>(msb(bottom)) - static_cast<int>(msb(top));
-  if (shift > 0) {
-    top <<= shift;
-  } else {
-    bottom <<= -shift;
-  }
-  Integer quotient;
-  Integer rest;
-  divide_qr(top, bottom, quotient, rest);
-  if (rest != 0) quotient |= 1;
-  __extension__ using Bits = unsigned __int128;
-  const Real magnitude = std::ldexp(static_cast<Real>(static_cast<Bits>(quotient)), -shift);
-  return negative ? -magnitude : magnitude;
-}
-
 }  // namespace
 
 Integer power_of_ten(int exponent) {
   return boost::multiprecision::pow(Integer(10), static_cast<unsigned>(exponent));
 }
 
-long double nearest(const Exact& value) { return rounded<long double>(value); }
-double nearest_double(const Exact& value) { return rounded<double>(value); }
+long double nearest(const Exact& value) { return value.convert_to<long double>(); }
+double nearest_double(const Exact& value) { return value.convert_to<double>(); }
 
 void ExactSum::carry(Wide value) {
   high_ += Integer(low_);

@@ -278,22 +278,19 @@ double FittedDistribution::quantile(double probability) const {
 }
 
 std::vector<std::pair<std::string_view, double>> FittedDistribution::named_parameters() const {
-  const auto& [a, b, c, d, e] = parameters;
-  switch (name) {
-    case ProcessDistribution::Normal: return {{"mean", a}, {"standard_deviation", b}};
-    case ProcessDistribution::FoldedNormal:
-    case ProcessDistribution::Rayleigh: return {{"scale", a}};
-    case ProcessDistribution::Weibull: return {{"shape", a}, {"scale", b}};
-    case ProcessDistribution::Lognormal:
-      return {{"log_mean", a}, {"log_standard_deviation", b}, {"origin", c}, {"tail", d}};
-    case ProcessDistribution::Mixture:
-      return {{"share", a},
-              {"mean", b},
-              {"standard_deviation", c},
-              {"second_mean", d},
-              {"second_standard_deviation", e}};
-  }
-  return {};
+  constexpr std::array<std::string_view, 5> kNames[] = {
+      // in the order of ProcessDistribution
+      {"mean", "standard_deviation"},
+      {"scale"},
+      {"scale"},
+      {"shape", "scale"},
+      {"log_mean", "log_standard_deviation", "origin", "tail"},
+      {"share", "mean", "standard_deviation", "second_mean", "second_standard_deviation"}};
+  std::vector<std::pair<std::string_view, double>> named;
+  const auto& names = kNames[static_cast<std::size_t>(name)];
+  for (std::size_t i = 0; i < names.size() && !names[i].empty(); ++i)
+    named.emplace_back(names[i], parameters[i]);
+  return named;
 }
 
 std::optional<FittedDistribution> fit_distribution(const Ranking& ranking, int scale) {
