@@ -333,18 +333,9 @@ class Reader {
 
 }  // namespace
 
-Result<TabTable> read_tab(std::string_view text, Allowance& allowance) {
-  return Reader(text, allowance).read();
-}
-
-Result<TabTable> read_tab(std::string_view text) {
-  Allowance unlimited;
-  return read_tab(text, unlimited);
-}
-
 Result<TabTable> read_tab_file(std::string_view bytes, Allowance& allowance) {
-  return is_utf8(bytes) ? read_tab(bytes, allowance)
-                        : read_tab(utf8_from_windows1252(bytes), allowance);
+  return is_utf8(bytes) ? Reader(bytes, allowance).read()
+                        : Reader(utf8_from_windows1252(bytes), allowance).read();
 }
 
 }  // namespace fitgauge::tabfile

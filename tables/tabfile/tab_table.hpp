@@ -98,22 +98,18 @@ class TabTable {
   std::map<std::int64_t, std::size_t> others_;  ///< the other numbered rows
 };
 
-/// Writes a table in the form that its header names; read_tab returns an equal table.
+/// Writes a table in the form that its header names; read_tab_file returns an equal table.
 std::string write_tab(const TabTable& table);
 
 /// Reads a table file in any form of the controls: columns described by #STRUCTBEGIN, by
 /// TableDescription or not at all, comment lines before the column names, LF or CRLF. The names in
 /// the column line begin where their columns begin; every row is cut there. A file may hold up to
 /// 4096 columns, a million cells and a million lines.
-/// @param text valid UTF-8, a byte order mark allowed
+/// @param bytes UTF-8, a byte order mark allowed, or Windows-1252 as older controls write it
 /// @errors TableFileMalformed, `where` names the line: no BEGIN, an unfinished description, no
 ///   column line, a name twice, a cell that runs into the next, a row number twice, no [END], text
 ///   after [END].
 /// Reading leaves off with that error, too, once `allowance` is spent.
-Result<TabTable> read_tab(std::string_view text, Allowance& allowance);
-Result<TabTable> read_tab(std::string_view text);
-
-/// Reads the bytes of a file: UTF-8, or Windows-1252 as older controls write it.
 Result<TabTable> read_tab_file(std::string_view bytes, Allowance& allowance);
 
 /// Maximum number of columns; reading ends at a description with more.

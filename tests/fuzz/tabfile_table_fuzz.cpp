@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (table->cell(row, column).find('\n') != std::string_view::npos) std::abort();
     }
   }
-  const auto again = read_tab(write_tab(*table));
+  const auto again = read_tab_file(write_tab(*table), unlimited);
   if (!again || !(*again == *table)) std::abort();
   return 0;
 }

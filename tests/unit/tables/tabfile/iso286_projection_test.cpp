@@ -12,6 +12,11 @@ using namespace fitgauge::iso286;
 
 namespace {
 
+TabTable read_again(std::string_view text) {
+  Allowance unlimited;
+  return read_tab_file(text, unlimited).value();
+}
+
 ToleranceTables projected_tables_with(std::vector<CustomColumn> columns) {
   TableData data = compiled_in_tables();
   data.custom_columns = std::move(columns);
@@ -78,7 +83,7 @@ TEST_CASE("every cell reads back exactly, by our reader and by the offsets of th
   for (const Feature feature : {Feature::Hole, Feature::Shaft}) {
     const TabTable projected = project(tables, feature);
     const std::string file = write_tab(projected);
-    const TabTable read = read_tab(file).value();
+    const TabTable read = read_again(file);
     CHECK(read == projected);
     std::size_t numbers = 0;
     for (const ClassId id : tables.classes(feature)) {
@@ -122,5 +127,5 @@ TEST_CASE("custom columns take the place of their class, or the last one") {
   // 20 to 40 mm holds all of 24 to 30 mm, but only parts of 18 to 24 mm.
   CHECK(holes.number(10, "Odd").error().code == ErrorCode::TableCellEmpty);
   CHECK(*holes.number(12, "Odd") == 9.0);
-  CHECK(read_tab(write_tab(holes)).value() == holes);
+  CHECK(read_again(write_tab(holes)) == holes);
 }

@@ -41,6 +41,11 @@ constexpr const char* kTnc640 =
     "1                 last one\n"
     "[END]\n";
 
+Result<TabTable> read_tab(std::string_view text) {
+  Allowance unlimited;
+  return read_tab_file(text, unlimited);
+}
+
 TabTable table(std::string_view text) { return read_tab(text).value(); }
 
 /// `where: message` of the error.
