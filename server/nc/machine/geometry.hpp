@@ -85,9 +85,11 @@ class Transform {
  public:
   Transform() = default;
 
-  static Transform translation(const Vec3& by);
+  static Transform translation(const Vec3& by) { return {{}, by, {}, -by}; }
   /// @pre `rotation` is orthogonal (a rotation or a mirror).
-  static Transform orthogonal(const Matrix3& rotation);
+  static Transform orthogonal(const Matrix3& rotation) {
+    return {rotation, {}, rotation.transposed(), {}};
+  }
   /// Turns by `degrees` around the axis of unit vector `direction` through `centre`.
   static Transform rotation_around(const Vec3& centre, const Vec3& direction, double degrees);
   /// Scales by `factor` (each not 0) from the point `centre`.
@@ -101,11 +103,18 @@ class Transform {
   const Matrix3& linear() const { return linear_; }
 
   bool is_finite() const;
-  Transform inverse() const;
+  Transform inverse() const { return {inverse_linear_, inverse_offset_, linear_, offset_}; }
   /// (outer * inner).point(p) is outer.point(inner.point(p)).
   friend Transform operator*(const Transform& outer, const Transform& inner);
 
  private:
+  Transform(const Matrix3& linear, const Vec3& offset, const Matrix3& inverse_linear,
+            const Vec3& inverse_offset)
+      : linear_(linear),
+        offset_(offset),
+        inverse_linear_(inverse_linear),
+        inverse_offset_(inverse_offset) {}
+
   Matrix3 linear_;
   Vec3 offset_;
   Matrix3 inverse_linear_;

@@ -214,29 +214,16 @@ Vec3 spatial_angles(const Matrix3& rotation) {
   return {degrees(std::atan2(z.y, z.z)), b, degrees(std::atan2(y.x, x.x))};
 }
 
-Transform Transform::translation(const Vec3& by) {
-  Transform t;
-  t.offset_ = by;
-  t.inverse_offset_ = -by;
-  return t;
-}
-
-Transform Transform::orthogonal(const Matrix3& rotation) {
-  Transform t;
-  t.linear_ = rotation;
-  t.inverse_linear_ = rotation.transposed();
-  return t;
-}
-
 Transform Transform::rotation_around(const Vec3& centre, const Vec3& direction, double degrees) {
   return translation(centre) * orthogonal(Matrix3::rotation(direction, degrees)) *
          translation(-centre);
 }
 
 Transform Transform::scaling(const Vec3& centre, const Vec3& factor) {
-  Transform scale;
-  scale.linear_ = Matrix3::diagonal(factor);
-  scale.inverse_linear_ = Matrix3::diagonal({1 / factor.x, 1 / factor.y, 1 / factor.z});
+  const Transform scale{Matrix3::diagonal(factor),
+                        {},
+                        Matrix3::diagonal({1 / factor.x, 1 / factor.y, 1 / factor.z}),
+                        {}};
   return translation(centre) * scale * translation(-centre);
 }
 
@@ -246,22 +233,10 @@ bool Transform::is_finite() const {
          machine::is_finite(offset_);
 }
 
-Transform Transform::inverse() const {
-  Transform t;
-  t.linear_ = inverse_linear_;
-  t.offset_ = inverse_offset_;
-  t.inverse_linear_ = linear_;
-  t.inverse_offset_ = offset_;
-  return t;
-}
-
 Transform operator*(const Transform& outer, const Transform& inner) {
-  Transform t;
-  t.linear_ = outer.linear_ * inner.linear_;
-  t.offset_ = outer.point(inner.offset_);
-  t.inverse_linear_ = inner.inverse_linear_ * outer.inverse_linear_;
-  t.inverse_offset_ = inner.inverse_linear_ * outer.inverse_offset_ + inner.inverse_offset_;
-  return t;
+  return {outer.linear_ * inner.linear_, outer.point(inner.offset_),
+          inner.inverse_linear_ * outer.inverse_linear_,
+          inner.inverse_linear_ * outer.inverse_offset_ + inner.inverse_offset_};
 }
 
 }  // namespace fitgauge::machine

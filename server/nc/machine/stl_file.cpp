@@ -34,11 +34,11 @@ Result<std::vector<Triangle>> read_binary(std::string_view bytes) {
   return triangles;
 }
 
-/// Words of a text, without regard to case.
-class Words {
+class TextReader {
  public:
-  explicit Words(std::string_view text) : rest_(text) {}
+  explicit TextReader(std::string_view text) : rest_(text) {}
 
+  /// The next word; empty at the end.
   std::string_view next() {
     while (!rest_.empty() && is_blank(rest_.front())) {
       line_ += rest_.front() == '\n';
@@ -50,56 +50,40 @@ class Words {
     rest_.remove_prefix(length);
     return word;
   }
-  void skip_line() { rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size())); }
-  std::size_t line() const { return line_; }
-
-  static bool is(std::string_view word, std::string_view lower) {
-    return std::ranges::equal(word, lower, [](char c, char l) {
-      return (c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c) == l;
-    });
-  }
-
- private:
-  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-
-  std::string_view rest_;
-  std::size_t line_ = 1;
-};
-
-class TextReader {
- public:
-  explicit TextReader(std::string_view text) : words_(text) {}
 
   Result<std::vector<Triangle>> read() {
-    words_.next();  // solid
-    words_.skip_line();
-    for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
-      if (Words::is(word, "solid") || Words::is(word, "endsolid")) {
-        words_.skip_line();
+    next();  // solid
+    skip_line();
+    for (std::string_view word = next(); !word.empty(); word = next()) {
+      if (ascii_iequals(word, "solid") || ascii_iequals(word, "endsolid")) {
+        skip_line();
         continue;
       }
-      if (!Words::is(word, "facet")) return expected("facet", word);
+      if (!ascii_iequals(word, "facet")) return expected("facet", word);
       TRY(facet());
     }
     return std::move(triangles_);
   }
 
  private:
+  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+  void skip_line() { rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size())); }
+
   Error expected(std::string_view what, std::string_view found) const {
-    return refused("line {}: expected {}, found '{}'", words_.line(), what,
+    return refused("line {}: expected {}, found '{}'", line_, what,
                    found.empty() ? "the end of the file" : found.substr(0, 40));
   }
 
   Result<void> word(std::string_view lower) {
-    const std::string_view found = words_.next();
-    if (!Words::is(found, lower)) return expected(lower, found);
+    const std::string_view found = next();
+    if (!ascii_iequals(found, lower)) return expected(lower, found);
     return {};
   }
 
   Result<Vec3> numbers() {
     Vec3 values;
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::string_view found = words_.next();
+      const std::string_view found = next();
       const std::string_view digits = found.starts_with('+') ? found.substr(1) : found;
       const auto read = read_number<double>(digits);
       if (!read) return expected("a number", found);
@@ -117,13 +101,14 @@ class TextReader {
     for (Vec3& corner : triangle) {
       TRY(word("vertex"));
       corner = TRY(numbers());
-      if (!is_near(corner)) return refused("line {}: too far away", words_.line());
+      if (!is_near(corner)) return refused("line {}: too far away", line_);
     }
     TRY(word("endloop"));
     return word("endfacet");
   }
 
-  Words words_;
+  std::string_view rest_;
+  std::size_t line_ = 1;
   std::vector<Triangle> triangles_;
 };
 
@@ -173,7 +158,7 @@ Result<std::vector<Triangle>> read_stl(std::string_view bytes) {
     std::memcpy(&count, bytes.data() + kHeader - sizeof count, sizeof count);
     if (bytes.size() == kHeader + kRecord * std::size_t{count}) return read_binary(bytes);
   }
-  if (Words::is(Words(bytes).next(), "solid")) return TextReader(bytes).read();
+  if (ascii_iequals(TextReader(bytes).next(), "solid")) return TextReader(bytes).read();
   return refused(
       "is not an STL file: a text begins with 'solid', a binary file has 84 bytes and 50 for each "
       "triangle that it counts");
