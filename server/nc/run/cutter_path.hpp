@@ -30,7 +30,9 @@ struct WorkingPlane {
   std::size_t second = 1;
   machine::Axis normal = machine::Axis::Z;
 
-  static WorkingPlane across(machine::Axis tool_axis);
+  static WorkingPlane across(machine::Axis tool_axis) {
+    return {(index(tool_axis) + 1) % 3, (index(tool_axis) + 2) % 3, tool_axis};
+  }
   /// The plane of two linear axes, in either order.
   static WorkingPlane spanned_by(std::size_t a, std::size_t b) {
     return across(static_cast<machine::Axis>(3 - a - b));

@@ -92,14 +92,6 @@ Vec2 turned(Vec2 a, double angle_deg) {
   return {a.x * cosine - a.y * sine, a.x * sine + a.y * cosine};
 }
 
-WorkingPlane WorkingPlane::across(machine::Axis tool_axis) {
-  switch (tool_axis) {
-    case machine::Axis::X: return {1, 2, machine::Axis::X};
-    case machine::Axis::Y: return {2, 0, machine::Axis::Y};
-    default: return {0, 1, machine::Axis::Z};
-  }
-}
-
 std::optional<Vec2> Curve::start_direction() const {
   if (!is_arc()) {
     if (norm(end - start) < tolerance::kSamePoint) return std::nullopt;
