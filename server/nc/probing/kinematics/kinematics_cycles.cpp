@@ -1,3 +1,4 @@
+#include "log_templates.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/kinematics/measurement.hpp"
 #include "nc/probing/log/measuring_log.hpp"
@@ -8,7 +9,9 @@ namespace fitgauge::probing::kinematics_cycles {
 using machine::Axis;
 using machine::Kinematics;
 using machine::RotaryAxis;
+using namespace fmt::literals;
 using namespace parameter;
+namespace parts = templates::kinematics;
 
 constexpr int kRecordName = 409;
 constexpr std::size_t kMostRecords = 16;
@@ -44,24 +47,17 @@ std::string mm(double value) { return log_text(to_length(value), false); }
 
 /// Every transformation of a kinematic model as a table.
 std::string table_of(const Kinematics& model) {
-  std::string html =
-      "<table>\n<thead><tr><th scope=\"col\">Axis</th><th scope=\"col\">X</th><th "
-      "scope=\"col\">Y</th><th scope=\"col\">Z</th><th "
-      "scope=\"col\">Direction</th></tr></thead>\n<tbody>\n";
-  for (const machine::RotaryAxis& axis : model.axes()) {
-    html += fmt::format(
-        "<tr><th scope=\"row\">{} in the {}</th><td>{}</td><td>{}</td><td>{}</td><td>{} {} "
-        "{}</td></tr>\n",
-        name(axis.axis), axis.mount == machine::AxisMount::Table ? "table" : "head",
-        mm(axis.centre.x), mm(axis.centre.y), mm(axis.centre.z), fixed(axis.direction.x, 7),
-        fixed(axis.direction.y, 7), fixed(axis.direction.z, 7));
+  std::string axes;
+  for (const auto& [axis, mount, centre, direction, zero] : model.axes()) {
+    axes += fmt::format(parts::model_axis, "axis"_a = name(axis),
+                        "mount"_a = mount == machine::AxisMount::Table ? "table" : "head",
+                        "x"_a = mm(centre.x), "y"_a = mm(centre.y), "z"_a = mm(centre.z),
+                        "i"_a = fixed(direction.x, 7), "j"_a = fixed(direction.y, 7),
+                        "k"_a = fixed(direction.z, 7));
   }
   const Vec3& offset = model.offset();
-  return html +
-         fmt::format(
-             "<tr><th scope=\"row\">Offset of the "
-             "tool</th><td>{}</td><td>{}</td><td>{}</td><td></td></tr>\n</tbody>\n</table>\n",
-             mm(offset.x), mm(offset.y), mm(offset.z));
+  return fmt::format(parts::model, "axes"_a = axes, "x"_a = mm(offset.x), "y"_a = mm(offset.y),
+                     "z"_a = mm(offset.z));
 }
 
 CycleResult<std::string> save(const CycleContext& context, KinematicsRecords& records,
@@ -116,9 +112,9 @@ CycleResult<std::string> handle(const CycleContext& context) {
 
 CycleResult<void> manage_kinematics(const CycleContext& context) {
   const auto text = TRY(handle(context));
-  return add_section(context.host, kLog,
-                     fmt::format("<section>\n<h2>Kinematics on {}</h2>\n{}</section>\n",
-                                 date_and_time(context.host), text));
+  return add_section(
+      context.host, kLog,
+      fmt::format(parts::records, "when"_a = date_and_time(context.host), "text"_a = text));
 }
 
 // The parameters and results that cycles 451 to 453 share.
@@ -179,9 +175,9 @@ constexpr std::array<std::string_view, 4> kModes{"0 = check", "1 = optimise loca
 
 /// The error of the axis that was measured last.
 Vec3 offset_error(const KinematicsMeasurement& measurement) {
-  if (measurement.axes.empty()) return {};
-  const auto& location = measurement.axes.back().errors.location();
-  return location ? location->value : Vec3{};
+  const auto& errors = measurement.fit.errors;
+  const bool is_known = !errors.empty() && errors.back().location();
+  return is_known ? errors.back().location()->value : Vec3{};
 }
 
 CycleResult<void> measure_axes(const CycleContext& context) {
@@ -196,15 +192,8 @@ CycleResult<void> measure_axes(const CycleContext& context) {
   options.zeros = mode == 3;
   const auto measurement = TRY(measure_kinematics(context, probing, plans, options));
   write_kinematics_results(context.host, measurement, offset_error(measurement));
-  const KinematicsReport report{.mode = kModes.at(static_cast<std::size_t>(mode)),
-                                .measurement = measurement,
-                                .directions = mode != 1};
-  TRY(log_kinematics(context, report));
-  if (mode != 0) {
-    std::vector<AxisErrors> errors;
-    for (const AxisMeasurement& axis : measurement.axes) errors.push_back(axis.errors);
-    TRY(correct_kinematics(context, errors, measurement.is_corrected, measurement.corrected));
-  }
+  TRY(log_kinematics(context, kModes.at(static_cast<std::size_t>(mode)), measurement, mode != 1));
+  if (mode != 0) TRY(correct_kinematics(context, measurement.fit));
   return preset.after(context, probing);
 }
 
@@ -212,11 +201,10 @@ constexpr std::array k452Parameters =
     list(kSphereApproach, kRotaryAxes, kTouchesOfSphere, kBacklashAngle);
 
 /// Returns the place of the sphere by the corrected model, all axes at zero: the mean of the axes.
-Vec3 place_of_sphere(const KinematicsMeasurement& measurement, const MeasuringTool& tool) {
+Vec3 place_of_sphere(const KinematicsFit& fit) {
   Vec3 sum;
-  for (const AxisMeasurement& axis : measurement.axes)
-    sum = sum + spread(axis.poses, measurement.corrected, tool).centre;
-  return sum * (1 / static_cast<double>(measurement.axes.size()));
+  for (const Spread& of_axis : fit.after) sum = sum + of_axis.centre;
+  return sum * (1 / static_cast<double>(fit.after.size()));
 }
 
 /// Returns the machine as seen from a tool that is `shift` further; places on the bed stay.
@@ -228,15 +216,12 @@ Kinematics compensated(const Kinematics& model, const Vec3& shift) {
   return Kinematics(std::move(axes), model.offset() - shift);
 }
 
-CycleResult<void> check_complete(const KinematicsMeasurement& measurement) {
-  if (measurement.axes.empty()) return nc_error(1102, "no axis is to be measured");
-  for (const AxisMeasurement& axis : measurement.axes) {
-    if (axis.errors.location()) continue;
-    return nc_error(
-        1102,
-        std::string("the positions cannot see the location of axis ").append(name(axis.plan.axis)));
-  }
-  return {};
+CycleResult<void> check_complete(const KinematicsFit& fit) {
+  if (fit.errors.empty()) return nc_error(1102, "no axis is to be measured");
+  const auto lost =
+      std::ranges::find_if(fit.errors, [](const auto& each) { return !each.location(); });
+  if (lost == fit.errors.end()) return {};
+  return nc_error(1102, "the positions cannot see the location of axis {}", name(lost->axis));
 }
 
 CycleResult<void> compensate(const CycleContext& context) {
@@ -244,17 +229,12 @@ CycleResult<void> compensate(const CycleContext& context) {
   auto probing = TRY(KinematicsProbing::begin(context));
   const Vec3 preset = probing.sphere();
   const auto measurement = TRY(measure_kinematics(context, probing, plans, {.directions = false}));
-  TRY(check_complete(measurement));
+  TRY(check_complete(measurement.fit));
 
-  const Vec3 shift = place_of_sphere(measurement, probing.tool()) - preset;
-  const Kinematics model = compensated(measurement.corrected, shift);
-  TRY(context.machine.set_kinematics(model));
+  const Vec3 shift = place_of_sphere(measurement.fit) - preset;
+  TRY(context.machine.set_kinematics(compensated(measurement.fit.corrected, shift)));
   write_kinematics_results(context.host, measurement, shift);
-  const KinematicsReport report{.mode = "preset compensation",
-                                .measurement = measurement,
-                                .directions = false,
-                                .shift = shift};
-  TRY(log_kinematics(context, report));
+  TRY(log_kinematics(context, "preset compensation", measurement, false, shift));
   TRY(probing.turn({}));
   return probing.retract();
 }
@@ -334,7 +314,7 @@ CycleResult<void> measure_grid(const CycleContext& context) {
   write_results(context.host, grid, fit);
   const std::string_view words = mode == 1 ? "1 = optimise" : "0 = check";
   TRY(log_grid(context, words, poses, fit));
-  if (mode == 1) TRY(correct_kinematics(context, fit.errors, fit.is_corrected, fit.corrected));
+  if (mode == 1) TRY(correct_kinematics(context, fit));
   return preset.after(context, probing);
 }
 

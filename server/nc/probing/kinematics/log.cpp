@@ -98,18 +98,20 @@ std::string deviation_rows(const Spread& before, const Spread& after) {
   return fmt::format(parts::dispersion, "before"_a = old_value, "after"_a = new_value);
 }
 
-std::string axis_text(const AxisMeasurement& axis, bool directions) {
+std::string axis_text(const KinematicsMeasurement& measurement, std::size_t k, bool directions) {
+  const AxisMeasurement& axis = measurement.axes[k];
   const AxisPlan& plan = axis.plan;
+  const KinematicsFit& fit = measurement.fit;
   const std::array only{plan.axis};
   constexpr double kMicrometre = 0.001;
   return fmt::format(
       parts::axis, "axis"_a = name(plan.axis), "points"_a = plan.points,
       "start"_a = degrees(plan.start), "end"_a = degrees(plan.end),
       "grid"_a = plan.grid > 0 ? fmt::format(" on a Hirth grid of {}", degrees(plan.grid)) : "",
-      "incidence"_a = degrees(plan.incidence), "judged"_a = judged(axis.errors, directions),
-      "positions"_a = positions(axis.poses, only, axis.before, axis.after),
-      "deviations"_a = deviation_rows(axis.before, axis.after),
-      "errors"_a = error_rows(axis.errors),
+      "incidence"_a = degrees(plan.incidence), "judged"_a = judged(fit.errors[k], directions),
+      "positions"_a = positions(measurement.poses[k], only, fit.before[k], fit.after[k]),
+      "deviations"_a = deviation_rows(fit.before[k], fit.after[k]),
+      "errors"_a = error_rows(fit.errors[k]),
       "backlash"_a =
           axis.backlash_deg ? degrees(*axis.backlash_deg) : std::string(axis.no_backlash),
       "positioning_error"_a = degrees(axis.positioning_error_deg), "circle"_a = mm(axis.radius),
@@ -135,13 +137,15 @@ CycleResult<void> add(const CycleContext& context, std::string_view mode,
 
 }  // namespace
 
-CycleResult<void> log_kinematics(const CycleContext& context, const KinematicsReport& report) {
+CycleResult<void> log_kinematics(const CycleContext& context, std::string_view mode,
+                                 const KinematicsMeasurement& measurement, bool directions,
+                                 const std::optional<Vec3>& shift) {
   std::string html;
-  if (report.measurement.axes.empty()) html += parts::no_axis;
-  for (const AxisMeasurement& axis : report.measurement.axes)
-    html += axis_text(axis, report.directions);
-  if (report.shift) html += fmt::format(parts::shift, "shift"_a = components(*report.shift, mm));
-  return add(context, report.mode, html);
+  if (measurement.axes.empty()) html += parts::no_axis;
+  for (std::size_t k = 0; k < measurement.axes.size(); ++k)
+    html += axis_text(measurement, k, directions);
+  if (shift) html += fmt::format(parts::shift, "shift"_a = components(*shift, mm));
+  return add(context, mode, html);
 }
 
 CycleResult<void> log_grid(const CycleContext& context, std::string_view mode,

@@ -87,27 +87,6 @@ std::string_view no_backlash(const AxisPlan& plan, double radius, double backlas
   return {};
 }
 
-void evaluate(KinematicsMeasurement& measurement, const Kinematics& active,
-              const MeasuringTool& tool, const FitOptions& options) {
-  std::vector<PoseGroup> groups;
-  std::vector<Axis> axes;
-  for (const AxisMeasurement& axis : measurement.axes) {
-    groups.push_back(axis.poses);
-    axes.push_back(axis.plan.axis);
-  }
-  KinematicsFit fit = fit_kinematics(groups, active, tool, axes, options);
-  for (std::size_t k = 0; k < measurement.axes.size(); ++k) {
-    AxisMeasurement& axis = measurement.axes[k];
-    axis.before = std::move(fit.before[k]);
-    axis.after = std::move(fit.after[k]);
-    axis.errors = fit.errors[k];
-    axis.positioning_error_deg =
-        mean_positioning_error(axis.poses, fit.corrected, tool, axis.plan.axis);
-  }
-  measurement.corrected = std::move(fit.corrected);
-  measurement.is_corrected = fit.is_corrected;
-}
-
 /// Returns `location of axis C (0.0012 mm, twice its uncertainty 0.0300 mm)` for the first
 /// insignificant value; of an axis, its location is sufficient.
 std::string insignificant(const AxisErrors& errors) {
@@ -209,9 +188,10 @@ CycleResult<KinematicsMeasurement> measure_kinematics(const CycleContext& contex
   for (const AxisPlan& plan : plans) incidence[index(plan.axis) - 3] = plan.incidence;
 
   KinematicsMeasurement measurement;
+  std::vector<Axis> axes;
   for (const AxisPlan& plan : plans) {
     if (!plan.is_measured()) continue;
-    AxisMeasurement measured{.plan = plan, .poses = {}, .errors = {}, .before = {}, .after = {}};
+    AxisMeasurement measured{.plan = plan};
     measured.radius = measuring_radius(probing.sphere(), *active.find(plan.axis), tool);
     measured.no_backlash = no_backlash(plan, measured.radius, angle);
     const bool both_sides = measured.no_backlash.empty();
@@ -222,10 +202,15 @@ CycleResult<KinematicsMeasurement> measure_kinematics(const CycleContext& contex
           fit_backlash(up ? found.first : found.second, up ? found.second : found.first, active,
                        tool, plan.axis);
     }
-    measured.poses = std::move(found.first);
+    axes.push_back(plan.axis);
+    measurement.poses.push_back(std::move(found.first));
     measurement.axes.push_back(std::move(measured));
   }
-  evaluate(measurement, active, tool, options);
+  measurement.fit = fit_kinematics(measurement.poses, active, tool, axes, options);
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    measurement.axes[k].positioning_error_deg =
+        mean_positioning_error(measurement.poses[k], measurement.fit.corrected, tool, axes[k]);
+  }
   return measurement;
 }
 
@@ -233,11 +218,11 @@ void write_kinematics_results(CycleHost& host, const KinematicsMeasurement& meas
                               const Vec3& offset) {
   std::array<double, 3> before{-1, -1, -1};
   std::array<double, 3> after{-1, -1, -1};
-  for (const AxisMeasurement& axis : measurement.axes) {
-    if (axis.plan.positions.empty()) continue;  // the reference alone
-    const std::size_t letter = index(axis.plan.axis) - 3;
-    before[letter] = to_length(axis.before.deviation).to_mm();
-    after[letter] = to_length(axis.after.deviation).to_mm();
+  for (std::size_t k = 0; k < measurement.axes.size(); ++k) {
+    const AxisPlan& plan = measurement.axes[k].plan;
+    if (plan.positions.empty()) continue;  // the reference alone
+    before[index(plan.axis) - 3] = to_length(measurement.fit.before[k].deviation).to_mm();
+    after[index(plan.axis) - 3] = to_length(measurement.fit.after[k].deviation).to_mm();
   }
   const std::array errors{offset.x, offset.y, offset.z};
   for (std::uint16_t k = 0; k < 3; ++k) {
@@ -253,25 +238,24 @@ FitOptions fit_options(const CycleContext& context, bool directions) {
           .only_significant = !context.state().kinematics_options.notes_insignificant};
 }
 
-CycleResult<void> correct_kinematics(const CycleContext& context,
-                                     std::span<const AxisErrors> errors, bool is_corrected,
-                                     const machine::Kinematics& corrected) {
+CycleResult<void> correct_kinematics(const CycleContext& context, const KinematicsFit& fit) {
   const machine::KinematicsOptions& options = context.state().kinematics_options;
-  if (const std::string small = insignificant(errors); !small.empty()) {
-    if (!is_corrected) return nc_error(1102, small + ": measure a larger range or more positions");
+  if (const std::string small = insignificant(fit.errors); !small.empty()) {
+    if (!fit.is_corrected)
+      return nc_error(1102, small + ": measure a larger range or more positions");
     const std::string_view taken = options.notes_insignificant ? "corrected" : "not corrected";
     TRY(context.host.note(
         fmt::format("cycle {}: {}: {}", context.descriptor().number, taken, small)));
   }
-  if (!is_corrected) return {};
-  const double largest = largest_location(errors);
+  if (!fit.is_corrected) return {};
+  const double largest = largest_location(fit.errors);
   if (options.max_modification && largest > *options.max_modification) {
     const auto confirmed = TRY(context.host.confirm(
         fmt::format("the kinematics change by {:.4f} mm, more than max_modification_mm ({} mm)",
                     largest, *options.max_modification)));
     if (!confirmed) return {};
   }
-  return context.machine.set_kinematics(corrected);
+  return context.machine.set_kinematics(fit.corrected);
 }
 
 CycleResult<void> PresetAtSphere::check(const CycleContext& context) const {

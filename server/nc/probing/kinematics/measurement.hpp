@@ -96,11 +96,7 @@ CycleResult<std::vector<AxisPlan>> plan_positions(const Arguments& arguments,
 /// The measurements of one rotary axis.
 struct AxisMeasurement {
   AxisPlan plan;
-  PoseGroup poses;  ///< the reference at 0 first, then the positions
-  AxisErrors errors;
-  Spread before;      ///< by the kinematics that were active
-  Spread after;       ///< by the corrected kinematics: the result of a next measurement
-  double radius = 0;  ///< of the measuring circle, in mm
+  double radius = 0;                 ///< of the measuring circle, in mm
   double positioning_error_deg = 0;  ///< mean, by the corrected kinematics
   std::optional<double> backlash_deg{};
   std::string_view no_backlash{};  ///< why there is none
@@ -108,8 +104,8 @@ struct AxisMeasurement {
 
 struct KinematicsMeasurement {
   std::vector<AxisMeasurement> axes;  ///< measured axes, in the order A, B, C
-  machine::Kinematics corrected;      ///< the active kinematics with the corrections
-  bool is_corrected = false;          ///< something was found and is corrected
+  std::vector<PoseGroup> poses;       ///< of each: the reference at 0 first, then its positions
+  KinematicsFit fit;  ///< of the active kinematics to them: `after` is that of a next measurement
 };
 
 /// Measures the planned axes one after the other, the others at their angle of incidence: with
@@ -132,9 +128,7 @@ FitOptions fit_options(const CycleContext& context, bool directions);
 /// ones. A correction beyond max_modification_mm waits for NC Start; if a stop ends the run nothing
 /// is corrected.
 /// @errors 1102 errors were found, and none of them is at least twice its uncertainty.
-CycleResult<void> correct_kinematics(const CycleContext& context,
-                                     std::span<const AxisErrors> errors, bool is_corrected,
-                                     const machine::Kinematics& corrected);
+CycleResult<void> correct_kinematics(const CycleContext& context, const KinematicsFit& fit);
 
 /// Q431: whether the active preset is set into the centre of the sphere before measuring, after it,
 /// or both. Its zero then is the centre with all rotary axes at 0.
@@ -155,19 +149,16 @@ class PresetAtSphere {
   bool sets_after_;
 };
 
-/// The content of a log of kinematics.
-struct KinematicsReport {
-  std::string_view mode;  ///< in words
-  const KinematicsMeasurement& measurement;
-  bool directions = false;      ///< were asked for
-  std::optional<Vec3> shift{};  ///< of the preset, in mm, that was compensated
-};
-
 /// Adds a measurement to TCHPR451.html (with the cycle's number) in the program's folder: for each
 /// axis its positions with errors before and after, standard deviations, results and undetermined
 /// values. Lengths in mm, also in an INCH program.
+/// @param mode in words
+/// @param directions were asked for
+/// @param shift of the preset, in mm, that was compensated
 /// @errors if the run's output budget is used up.
-CycleResult<void> log_kinematics(const CycleContext& context, const KinematicsReport& report);
+CycleResult<void> log_kinematics(const CycleContext& context, std::string_view mode,
+                                 const KinematicsMeasurement& measurement, bool directions,
+                                 const std::optional<Vec3>& shift = std::nullopt);
 
 /// Writes the log of axes that were measured together.
 CycleResult<void> log_grid(const CycleContext& context, std::string_view mode,
