@@ -183,8 +183,7 @@ Result<gauging::DecisionRule> make_rule(const RuleWords& words) {
                                        : gauging::DecisionRule::conformance(known, probability);
 }
 
-Result<void> check_acceptance(const gauging::DecisionRule& rule,
-                              const gauging::ConformanceLimits& limits) {
+Result<void> check_acceptance(const gauging::DecisionRule& rule, const gauging::Limits& limits) {
   if (rule.kind() != gauging::DecisionRule::Kind::Conformance ||
       gauging::guard_band_factor(limits.upper - limits.lower, rule.uncertainty(),
                                  rule.probability().value())) {
@@ -210,7 +209,7 @@ void write_verdict_members(JsonWriter& json, Length nominal_size, const Measured
 }
 
 void write_rule_members(JsonWriter& json, const gauging::DecisionRule& rule, const RuleWords& words,
-                        const gauging::ConformanceLimits& limits, Length measured) {
+                        const gauging::Limits& limits, Length measured) {
   using Kind = gauging::DecisionRule::Kind;
   if (rule.kind() == Kind::Simple) return;
   const Length u = rule.standard_uncertainty();

@@ -71,8 +71,7 @@ gauging::KnownUncertainty known_uncertainty(const app::Measurement& measurement)
 Result<gauging::DecisionRule> make_rule(const RuleWords& words);
 
 /// @errors RuleNoAcceptance if conformance leaves no good value.
-Result<void> check_acceptance(const gauging::DecisionRule& rule,
-                              const gauging::ConformanceLimits& limits);
+Result<void> check_acceptance(const gauging::DecisionRule& rule, const gauging::Limits& limits);
 
 /// A measured value: the reading, and its size at 20 °C if the verdict uses it.
 struct MeasuredSize {
@@ -92,6 +91,6 @@ void write_verdict_members(JsonWriter& json, Length nominal_size, const Measured
 /// simple rule.
 /// @param words as given; the rule has the uncertainty with what a correction adds
 void write_rule_members(JsonWriter& json, const gauging::DecisionRule& rule, const RuleWords& words,
-                        const gauging::ConformanceLimits& limits, Length measured);
+                        const gauging::Limits& limits, Length measured);
 
 }  // namespace fitgauge::api

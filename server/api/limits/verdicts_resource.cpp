@@ -63,7 +63,7 @@ Result<std::optional<ThermalCorrection>> correction_of(const Request& request,
 /// The limits of a designation of any standard.
 struct Limits {
   LimitsAnswer answer{};
-  gauging::ConformanceLimits of;
+  gauging::Limits of;
   std::string etag;
   gauging::Quantity quantity = gauging::Quantity::Diameter;
   bool has_envelope = false;

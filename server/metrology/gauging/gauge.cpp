@@ -44,8 +44,6 @@ Wide stretch(const ThermalBody& body) {
   return kOne + Wide{body.expansion} * (body.temperature - kReference);
 }
 
-constexpr int kFactorScale = 6;
-
 /// Lengths and guard band in millionths of a nanometre.
 Verdict verdict(const Beyond& beyond, Wide upper, Wide lower, Wide measured, Wide guard) {
   if (measured >= lower + guard && measured <= upper - guard) return Verdict::Good;
@@ -55,7 +53,7 @@ Verdict verdict(const Beyond& beyond, Wide upper, Wide lower, Wide measured, Wid
 }
 
 /// By the probability of conformance; outside, the nearer limit decides between rework and reject.
-Verdict conformance_verdict(const Beyond& beyond, const ConformanceLimits& limits, Length measured,
+Verdict conformance_verdict(const Beyond& beyond, const Limits& limits, Length measured,
                             const DecisionRule& rule) {
   const double wanted = rule.probability().value();
   const KnownUncertainty u = rule.uncertainty();
@@ -74,14 +72,14 @@ std::int64_t coverage_millionths(double degrees_of_freedom) {
   return std::llround(std::min(k, kLargest) * 1e6L);
 }
 
-double nonconformance_probability(const ConformanceLimits& limits, Length measured,
+double nonconformance_probability(const Limits& limits, Length measured,
                                   const KnownUncertainty& uncertainty) {
   return outside(in_uncertainties(limits.upper - measured, uncertainty.u),
                  in_uncertainties(measured - limits.lower, uncertainty.u),
                  uncertainty.degrees_of_freedom);
 }
 
-double conformance_probability(const ConformanceLimits& limits, Length measured,
+double conformance_probability(const Limits& limits, Length measured,
                                const KnownUncertainty& uncertainty) {
   return 1 - nonconformance_probability(limits, measured, uncertainty);
 }
@@ -106,8 +104,7 @@ std::optional<double> guard_band_factor(Length tolerance, const KnownUncertainty
   return enough;
 }
 
-std::optional<ConformanceFigures> conformance_figures(const ConformanceLimits& limits,
-                                                      Length measured,
+std::optional<ConformanceFigures> conformance_figures(const Limits& limits, Length measured,
                                                       const KnownUncertainty& uncertainty,
                                                       double probability) {
   const auto factor = guard_band_factor(limits.upper - limits.lower, uncertainty, probability);
@@ -177,25 +174,6 @@ const Material* find_material(std::string_view name) {
   return found == kMaterials.end() ? nullptr : &*found;
 }
 
-Result<CoverageFactor> CoverageFactor::parse(std::string_view text, bool exponent) {
-  const auto millionths = parse_decimal(text, {.scale = kFactorScale, .exponent = exponent});
-  if (!millionths) {
-    return Error{ErrorCode::RuleInvalid, "coverage factor: " + millionths.error().message};
-  }
-  return from_millionths(*millionths);
-}
-
-Result<CoverageFactor> CoverageFactor::from_millionths(std::int64_t millionths) {
-  if (millionths <= 0) {
-    return Error{ErrorCode::RuleInvalid, "the coverage factor must be above 0; 2 is usual"};
-  }
-  return CoverageFactor(millionths);
-}
-
-std::string format(CoverageFactor factor) {
-  return format_decimal(factor.millionths(), kFactorScale);
-}
-
 Result<DecisionRule> DecisionRule::guard_band(Length standard_uncertainty, CoverageFactor factor) {
   if (standard_uncertainty < Length()) {
     return Error{ErrorCode::RuleInvalid, "the standard uncertainty must not be negative"};
@@ -205,18 +183,6 @@ Result<DecisionRule> DecisionRule::guard_band(Length standard_uncertainty, Cover
   rule.standard_uncertainty_ = standard_uncertainty;
   rule.coverage_factor_ = factor;
   return rule;
-}
-
-Result<ConformanceProbability> ConformanceProbability::from_millionths(std::int64_t millionths) {
-  if (millionths < 500'000 || millionths >= 1'000'000) {
-    return Error{ErrorCode::RuleInvalid,
-                 "the probability of conformance must be at least 0.5 and below 1; 0.95 is usual"};
-  }
-  return ConformanceProbability(millionths);
-}
-
-std::string format(ConformanceProbability probability) {
-  return format_decimal(probability.millionths(), kFactorScale);
 }
 
 Result<DecisionRule> DecisionRule::conformance(const KnownUncertainty& uncertainty,

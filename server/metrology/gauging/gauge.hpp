@@ -15,10 +15,12 @@ inline std::int64_t to_15_digits(double value) {
   return (whole + step / 2) / step * step;
 }
 
-/// The limits of size a true value conforms to.
-struct ConformanceLimits {
+/// The limits of a value, which both belong to the good ones.
+struct Limits {
   Length upper;
   Length lower;
+
+  friend bool operator==(const Limits&, const Limits&) = default;
 };
 
 /// The degrees of freedom of an uncertainty that is known exactly.
@@ -40,10 +42,10 @@ std::int64_t coverage_millionths(double degrees_of_freedom);
 
 /// Returns the probability that the true value is within the limits, without prior knowledge:
 /// normal around the measured value (JCGM 106:2012, clause 7), Student's t with degrees of freedom.
-double conformance_probability(const ConformanceLimits& limits, Length measured,
+double conformance_probability(const Limits& limits, Length measured,
                                const KnownUncertainty& uncertainty);
 /// Returns the probability that it is outside: 1 - conformance_probability, with all its digits.
-double nonconformance_probability(const ConformanceLimits& limits, Length measured,
+double nonconformance_probability(const Limits& limits, Length measured,
                                   const KnownUncertainty& uncertainty);
 
 /// Returns the distance inside both limits, in standard uncertainties, at which a value conforms
@@ -62,8 +64,7 @@ struct ConformanceFigures {
 
 /// Returns the figures; none if not even the middle of the limits conforms with this probability.
 /// @pre as conformance_probability
-std::optional<ConformanceFigures> conformance_figures(const ConformanceLimits& limits,
-                                                      Length measured,
+std::optional<ConformanceFigures> conformance_figures(const Limits& limits, Length measured,
                                                       const KnownUncertainty& uncertainty,
                                                       double probability);
 
@@ -184,52 +185,50 @@ struct Beyond {
                                      : Beyond(iso286::Feature::Hole)) {}
 };
 
-/// The factor k that widens a standard uncertainty (JCGM 100, 6.2), an exact decimal > 0 with up to
-/// six digits after the point.
-class CoverageFactor {
+/// An exact decimal with up to six digits after the point, within the bounds of its kind.
+template <class Kind>
+class Millionths {
  public:
-  /// k = 2.
-  constexpr CoverageFactor() = default;
+  /// The usual value.
+  constexpr Millionths() = default;
 
   /// @errors RuleInvalid.
-  static Result<CoverageFactor> parse(std::string_view text, bool exponent = false);
-  static Result<CoverageFactor> from_millionths(std::int64_t millionths);
-
-  constexpr std::int64_t millionths() const { return millionths_; }
-
-  friend constexpr auto operator<=>(CoverageFactor, CoverageFactor) = default;
-
- private:
-  explicit constexpr CoverageFactor(std::int64_t millionths) : millionths_(millionths) {}
-
-  std::int64_t millionths_ = 2'000'000;
-};
-
-/// `2`, `1.96`.
-std::string format(CoverageFactor factor);
-
-/// The probability of conformance a good part has at least, in millionths: 0.5 <= p < 1.
-class ConformanceProbability {
- public:
-  /// 95 % (ISO 14253-1:2017).
-  constexpr ConformanceProbability() = default;
-
-  /// @errors RuleInvalid.
-  static Result<ConformanceProbability> from_millionths(std::int64_t millionths);
+  static Result<Millionths> from_millionths(std::int64_t millionths) {
+    if (millionths >= Kind::kLeast && millionths <= Kind::kMost) return Millionths(millionths);
+    return Error{ErrorCode::RuleInvalid, std::string(Kind::kRefusal)};
+  }
 
   constexpr std::int64_t millionths() const { return millionths_; }
   constexpr double value() const { return static_cast<double>(millionths_) / 1e6; }
 
-  friend constexpr auto operator<=>(ConformanceProbability, ConformanceProbability) = default;
+  friend constexpr auto operator<=>(Millionths, Millionths) = default;
+  /// `2`, `1.96`.
+  friend std::string format(Millionths decimal) { return format_decimal(decimal.millionths_, 6); }
 
  private:
-  explicit constexpr ConformanceProbability(std::int64_t millionths) : millionths_(millionths) {}
+  explicit constexpr Millionths(std::int64_t millionths) : millionths_(millionths) {}
 
-  std::int64_t millionths_ = 950'000;
+  std::int64_t millionths_ = Kind::kUsual;
 };
 
-/// `0.95`
-std::string format(ConformanceProbability probability);
+struct CoverageFactorKind {
+  static constexpr std::int64_t kUsual = 2'000'000;
+  static constexpr std::int64_t kLeast = 1;
+  static constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  static constexpr std::string_view kRefusal = "the coverage factor must be above 0; 2 is usual";
+};
+/// The factor k > 0 that widens a standard uncertainty (JCGM 100, 6.2).
+using CoverageFactor = Millionths<CoverageFactorKind>;
+
+struct ConformanceProbabilityKind {
+  static constexpr std::int64_t kUsual = 950'000;  ///< ISO 14253-1:2017
+  static constexpr std::int64_t kLeast = 500'000;
+  static constexpr std::int64_t kMost = 999'999;
+  static constexpr std::string_view kRefusal =
+      "the probability of conformance must be at least 0.5 and below 1; 0.95 is usual";
+};
+/// The probability of conformance a good part has at least: 0.5 <= p < 1.
+using ConformanceProbability = Millionths<ConformanceProbabilityKind>;
 
 /// Rule for comparing a measured value with the limits (ISO 14253-1).
 class DecisionRule {
