@@ -1,6 +1,6 @@
 #pragma once
 
-#include "nc/machine/control.hpp"
+#include "nc/machine/simulated_machine.hpp"
 
 namespace fitgauge::machine {
 namespace trace_text {
@@ -71,77 +71,69 @@ struct TraceOptions {
   bool lines = false;                           ///< whether each command also writes a line of text
 };
 
-/// A decorator that records the commands of a control: its moves and, for golden tests, one line of
-/// text for each command. Owns the lines, not the machine. Not thread-safe.
-class TracingMachine final : public Machine {
+/// A simulated machine that records its commands: its moves and, for golden tests, one line of text
+/// for each command. Not thread-safe.
+class TracingMachine final : public SimulatedMachine {
  public:
-  TracingMachine(Control& inner, TraceOptions options)
-      : inner_(inner), lines_most_(options.lines ? options.longest : 0) {
-    inner_.trace(
-        options.keep ? std::move(options.keep) : [](const TracedMove&) {}, options.longest);
+  TracingMachine(const Setup& setup, TraceOptions options, Allowance* allowance = nullptr)
+      : SimulatedMachine(setup, allowance), lines_most_(options.lines ? options.longest : 0) {
+    trace(options.keep ? std::move(options.keep) : [](const TracedMove&) {}, options.longest);
   }
 
   const std::vector<std::string>& lines() const { return lines_; }
-  std::size_t dropped() const { return inner_.untraced(); }
-
-  const MachineState& state() const override { return inner_.state(); }
-  std::optional<Vec3> contact_normal() const override { return inner_.contact_normal(); }
-  std::vector<PartFeature> part_features(const Vec3& at) const override {
-    return inner_.part_features(at);
-  }
-  bool has_entered_part() const override { return inner_.has_entered_part(); }
+  std::size_t dropped() const { return untraced(); }
 
   MachineResult<void> move(const LinearMove& move) override {
-    return write(inner_.move(move), [&] {
+    return write(SimulatedMachine::move(move), [&] {
       return fmt::format("L {} {}", text_of(state().position(), state()), text_of(move.feed));
     });
   }
   MachineResult<void> move_arc(const ArcMove& arc) override {
-    return write(inner_.move_arc(arc), [&] {
+    return write(SimulatedMachine::move_arc(arc), [&] {
       return fmt::format("ARC {} CC {} {:+.4f} {}", text_of(state().position(), state()),
                          text_of(arc.centre), arc.sweep_deg, text_of(arc.feed));
     });
   }
   MachineResult<ContactPoint> probe(const ProbeMove& move) override {
-    auto result = inner_.probe(move);
+    auto result = SimulatedMachine::probe(move);
     return write(result, [&] {
       return fmt::format("PROBE {} F{:g}{}", text_of(move.direction), move.feed,
                          result ? " TOUCHED " + text_of(result->surface) : std::string());
     });
   }
   MachineResult<void> call_tool(const ToolCall& call) override {
-    return write(inner_.call_tool(call), [&] { return text_of(call); });
+    return write(SimulatedMachine::call_tool(call), [&] { return text_of(call); });
   }
   MachineResult<void> write_tool(const Tool& tool) override {
-    return write(inner_.write_tool(tool), [&] {
+    return write(SimulatedMachine::write_tool(tool), [&] {
       return fmt::format("TOOL {} L{:+.4f} R{:+.4f} DL{:+.4f} DR{:+.4f}{}", tool.number, tool.l,
                          tool.r, tool.dl, tool.dr, tool.locked ? " LOCKED" : "");
     });
   }
   MachineResult<void> write_probe(const ProbeRow& row) override {
-    return write(inner_.write_probe(row), [&] {
+    return write(SimulatedMachine::write_probe(row), [&] {
       return fmt::format("PROBE DATA {} CAL_OF1{:+.4f} CAL_OF2{:+.4f}", row.number, row.cal_of1,
                          row.cal_of2);
     });
   }
   MachineResult<void> write_preset(const Preset& preset) override {
-    return write(inner_.write_preset(preset), [&] {
+    return write(SimulatedMachine::write_preset(preset), [&] {
       return fmt::format("PRESET ROW {} {} {}", preset.number, text_of(preset.frame.origin),
                          angles("SP", preset.frame.basic_rotation_deg));
     });
   }
   MachineResult<void> write_tool_touch_probe(const ToolTouchProbe& tt) override {
-    return write(inner_.write_tool_touch_probe(tt),
+    return write(SimulatedMachine::write_tool_touch_probe(tt),
                  [&] { return fmt::format("TT {} R{:+.4f}", text_of(tt.centre), tt.radius); });
   }
   MachineResult<void> activate_preset(int number) override {
-    return write(inner_.activate_preset(number), [&] { return fmt::format("PRESET {}", number); });
+    return write(SimulatedMachine::activate_preset(number), [&] { return fmt::format("PRESET {}", number); });
   }
   MachineResult<void> set_frames(const Frames& frames) override {
-    return write(inner_.set_frames(frames), [&] { return text_of(frames); });
+    return write(SimulatedMachine::set_frames(frames), [&] { return text_of(frames); });
   }
   MachineResult<void> set_modes(const Modes& modes) override {
-    return write(inner_.set_modes(modes), [&] {
+    return write(SimulatedMachine::set_modes(modes), [&] {
       std::string text = fmt::format("MODES SPINDLE {} S{:g} COOLANT {} F{:g} TCPM {}",
                                      static_cast<int>(modes.spindle), modes.spindle_rpm,
                                      modes.coolant ? 1 : 0, modes.feed_mm_min, modes.tcpm ? 1 : 0);
@@ -150,7 +142,7 @@ class TracingMachine final : public Machine {
     });
   }
   MachineResult<void> set_kinematics(const Kinematics& kinematics) override {
-    return write(inner_.set_kinematics(kinematics), [&] {
+    return write(SimulatedMachine::set_kinematics(kinematics), [&] {
       std::string text = "KINEMATICS";
       for (const RotaryAxis& axis : kinematics.axes()) {
         text += fmt::format(" {} {}", name(axis.axis), text_of(axis.centre));
@@ -159,14 +151,14 @@ class TracingMachine final : public Machine {
     });
   }
   MachineResult<void> dwell(double seconds) override {
-    return write(inner_.dwell(seconds), [&] { return fmt::format("DWELL {:g}", seconds); });
+    return write(SimulatedMachine::dwell(seconds), [&] { return fmt::format("DWELL {:g}", seconds); });
   }
   void stop(std::string_view reason) override {
-    inner_.stop(reason);
+    SimulatedMachine::stop(reason);
     write(MachineResult<void>(), [&] { return fmt::format("STOP {}", reason); });
   }
   void message(std::string_view text) override {
-    inner_.message(text);
+    SimulatedMachine::message(text);
     write(MachineResult<void>(), [&] { return fmt::format("MESSAGE {}", text); });
   }
 
@@ -184,7 +176,6 @@ class TracingMachine final : public Machine {
     return result;
   }
 
-  Control& inner_;
   std::size_t lines_most_;
   std::vector<std::string> lines_;
 };

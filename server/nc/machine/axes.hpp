@@ -38,7 +38,7 @@ struct AxesCapabilities {
 /// control. A real driver is one such class. Lengths in mm, angles in degrees.
 ///
 /// Each function returns at the end of its motion. After a fault the axes stop where they are, and
-/// accept commands again. Not thread-safe; one Control owns them.
+/// accept commands again. Not thread-safe; one Machine owns them.
 ///
 /// Faults of every motion: Interrupted if its allowance was spent; and faults that only a machine
 /// can report: EmergencyStop, FeedHold (longer than the driver waits), Aborted (by the operator),

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "nc/machine/control.hpp"
+#include "nc/machine/machine.hpp"
 
 namespace fitgauge::machine {
 
@@ -68,9 +68,9 @@ class ScriptedAxes final : public Axes {
 };
 
 /// A control over axes that replay a log. Not thread-safe.
-class ScriptedMachine final : public Control {
+class ScriptedMachine final : public Machine {
  public:
-  /// @param allowance as of Control
+  /// @param allowance as of Machine
   /// @pre validate() accepts the setup that `setup` is part of.
   ScriptedMachine(const MachineSetup& setup, std::vector<ScriptedContact> contacts,
                   Allowance* allowance = nullptr, double tolerance = 0.05)
@@ -83,7 +83,7 @@ class ScriptedMachine final : public Control {
  private:
   /// Owns `axes`.
   ScriptedMachine(const MachineSetup& setup, ScriptedAxes* axes, Allowance* allowance)
-      : Control(setup, std::unique_ptr<Axes>(axes), allowance), axes_(*axes) {
+      : Machine(setup, std::unique_ptr<Axes>(axes), allowance), axes_(*axes) {
     axes_.serve(state());
   }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "nc/machine/control.hpp"
+#include "nc/machine/machine.hpp"
 #include "nc/machine/random.hpp"
 #include "nc/machine/workpiece.hpp"
 
@@ -77,12 +77,12 @@ class SimulatedAxes final : public Axes {
 };
 
 /// A control with the axes of a setup. Not thread-safe.
-class SimulatedMachine final : public Control {
+class SimulatedMachine : public Machine {
  public:
-  /// @param allowance as of Control
+  /// @param allowance as of Machine
   /// @pre validate(setup) succeeds.
   explicit SimulatedMachine(const Setup& setup, Allowance* allowance = nullptr)
-      : Control(setup.machine, std::make_unique<SimulatedAxes>(setup), allowance) {}
+      : Machine(setup.machine, std::make_unique<SimulatedAxes>(setup), allowance) {}
 };
 
 }  // namespace fitgauge::machine

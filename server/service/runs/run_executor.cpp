@@ -218,7 +218,7 @@ ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active) {
   Follower follower(active, allowance, surroundings.shows_last);
   std::optional<machine::SimulatedMachine> simulated;
   std::optional<machine::ScriptedMachine> scripted;
-  machine::Control* actual = nullptr;
+  machine::Machine* actual = nullptr;
   if (order.contacts) {
     actual = &scripted.emplace(order.setup.machine, *order.contacts, &allowance);
   } else {

@@ -2,8 +2,7 @@
 
 #include "base/gzip.hpp"
 #include "db/store/runs_store.hpp"
-#include "nc/machine/control.hpp"
-#include "nc/machine/machine_setup.hpp"
+#include "nc/machine/machine.hpp"
 #include "nc/machine/scripted_machine.hpp"
 #include "nc/run/interpreter.hpp"
 #include "record/measurement.hpp"

@@ -105,12 +105,11 @@ std::optional<Ran> Case::execute(const std::string& name, RunObserver& observer)
   const ProjectingDisk disk = this->disk();
   const auto file = programs_.get(*disk.find(path(name)));
   if (file->program == nullptr) return std::nullopt;
-  machine::SimulatedMachine machine(setup_.machine);
   std::vector<machine::Vec3> touched;
   const auto keep = [&](const machine::TracedMove& move) {
     if (move.contact) touched.push_back(move.contact->machine_surface);
   };
-  machine::TracingMachine tracing(machine, {.keep = keep, .longest = 10'000, .lines = true});
+  machine::TracingMachine tracing(setup_.machine, {.keep = keep, .longest = 10'000, .lines = true});
   tracing_ = &tracing;
   const GoldenClock clock;
   RunResult result =

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "linuxcnc_axes.hpp"
-#include "nc/machine/control.hpp"
+#include "nc/machine/machine.hpp"
 #include "nc/program/program_cache.hpp"
 #include "nc/run/interpreter.hpp"
 #include "tables/tabfile/iso286_projection.hpp"
@@ -48,7 +48,7 @@ int run_on(const std::string& socket, double seconds) {
   RunOptions options;
   options.limits.time = std::chrono::duration<double>(seconds);
   Allowance allowance(options.limits.time, options.limits.memory_bytes, {});
-  machine::Control control(mill(), std::make_unique<peers::LinuxcncAxes>(socket), &allowance);
+  machine::Machine control(mill(), std::make_unique<peers::LinuxcncAxes>(socket), &allowance);
   const SystemClock clock;
   RunObserver observer;
   const auto program = programs.get(disk, path("8255.h"));

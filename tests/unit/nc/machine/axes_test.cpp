@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "nc/machine/control.hpp"
+#include "nc/machine/machine.hpp"
 #include "unit/nc/machine/vec_check.hpp"
 
 using namespace fitgauge::machine;
@@ -52,7 +52,7 @@ struct Bench {
     REQUIRE(control.call_tool(call).has_value());
   }
   RecordingAxes* axes = new RecordingAxes;  // the control's
-  Control control;
+  Machine control;
 };
 
 ProbeMove towards_x(std::optional<double> retract = std::nullopt) {

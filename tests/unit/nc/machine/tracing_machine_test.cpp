@@ -39,9 +39,8 @@ void run(Machine& machine) {
 }  // namespace
 
 TEST_CASE("a trace holds every move with its feed, time and contact") {
-  SimulatedMachine simulated(face_setup());
   std::vector<TracedMove> moves;
-  TracingMachine machine(simulated, {[&](const TracedMove& move) { moves.push_back(move); }});
+  TracingMachine machine(face_setup(), {[&](const TracedMove& move) { moves.push_back(move); }});
   run(machine);
   REQUIRE(moves.size() == 6);
   CHECK(moves[0].kind == MoveKind::Rapid);
@@ -72,9 +71,8 @@ TEST_CASE("a trace holds every move with its feed, time and contact") {
 }
 
 TEST_CASE("a traced move is drawn from itself alone, also where the coordinates have changed") {
-  SimulatedMachine simulated(face_setup());
   std::vector<TracedMove> moves;
-  TracingMachine machine(simulated, {[&](const TracedMove& move) { moves.push_back(move); }});
+  TracingMachine machine(face_setup(), {[&](const TracedMove& move) { moves.push_back(move); }});
   ToolCall call;
   call.number = 30;
   call.axis = Axis::Z;
@@ -126,8 +124,7 @@ TEST_CASE("a traced move is drawn from itself alone, also where the coordinates 
 }
 
 TEST_CASE("each command writes a line") {
-  SimulatedMachine simulated(face_setup());
-  TracingMachine machine(simulated, {{}, 1000, true});
+  TracingMachine machine(face_setup(), {{}, 1000, true});
   run(machine);
   Preset preset;
   preset.number = 4;
@@ -155,9 +152,8 @@ TEST_CASE("each command writes a line") {
 }
 
 TEST_CASE("a full trace counts what it drops, and keeps no more") {
-  SimulatedMachine simulated(face_setup());
   int kept = 0;
-  TracingMachine machine(simulated, {[&kept](const TracedMove&) { ++kept; }, 2, true});
+  TracingMachine machine(face_setup(), {[&kept](const TracedMove&) { ++kept; }, 2, true});
   run(machine);
   CHECK(kept == 2);
   CHECK(machine.lines().size() == 2);

@@ -22,7 +22,7 @@ class Mill : public Control {
     program("TOOL CALL 5 Z S1000 F500\n" + std::string(body));
     last = run();
     std::vector<std::string> moves;
-    for (std::string line : tracing->lines()) {
+    for (std::string line : machine->lines()) {
       if (!line.starts_with("L ") && !line.starts_with("ARC ")) continue;
       constexpr std::string_view kUnturned = " A+0.0000 C+0.0000";
       if (const auto at = line.find(kUnturned); at != std::string::npos) {

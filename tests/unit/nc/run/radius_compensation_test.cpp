@@ -24,7 +24,7 @@ class ContourMill : public Control {
     program("TOOL CALL 5 Z S1000 F500\nL X+0 Y+0 Z+0 FMAX\n" + body);
     last = run();
     ContourLines moves;
-    for (std::string line : tracing->lines()) {
+    for (std::string line : machine->lines()) {
       if (!line.starts_with("L ") && !line.starts_with("ARC ")) continue;
       for (auto at = line.find(" Z+0.0000"); at != std::string::npos; at = line.find(" Z+0.0000")) {
         line.erase(at, 9);

@@ -48,13 +48,14 @@ class Control {
     traced.clear();
     allowance.emplace(options.limits.time, options.limits.memory_bytes, std::move(stop));
     if (spent_at) allowance->spend_at_look(spent_at->first, spent_at->second);
-    machine = std::make_unique<machine::SimulatedMachine>(setup, &*allowance);
-    tracing = std::make_unique<machine::TracingMachine>(
-        *machine, machine::TraceOptions{
-                      .keep = [this](const machine::TracedMove& move) { traced.push_back(move); },
-                      .longest = 1000,
-                      .lines = true});
-    return interpreter::run(file->program, {*tracing, disk, programs, clock, observer, &*allowance},
+    machine = std::make_unique<machine::TracingMachine>(
+        setup,
+        machine::TraceOptions{
+            .keep = [this](const machine::TracedMove& move) { traced.push_back(move); },
+            .longest = 1000,
+            .lines = true},
+        &*allowance);
+    return interpreter::run(file->program, {*machine, disk, programs, clock, observer, &*allowance},
                             options);
   }
   /// Runs one body and returns the result.
@@ -73,8 +74,7 @@ class Control {
   machine::Setup setup;
   std::optional<Allowance> allowance;
   std::optional<std::pair<std::uint64_t, Allowance::Spent>> spent_at;  ///< the look, and how
-  std::unique_ptr<machine::SimulatedMachine> machine;
-  std::unique_ptr<machine::TracingMachine> tracing;
+  std::unique_ptr<machine::TracingMachine> machine;
   std::vector<machine::TracedMove> traced;  ///< of the last run
 };
 

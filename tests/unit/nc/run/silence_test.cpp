@@ -12,7 +12,7 @@ std::string shown(Workshop& control, const std::string& body) {
   const RunResult result = control.run();
   std::string all = outcome(result) + "\n";
   for (const RunMessage& message : result.messages) all += message.text + "\n";
-  for (const std::string& line : control.tracing->lines()) all += line + "\n";
+  for (const std::string& line : control.machine->lines()) all += line + "\n";
   return all;
 }
 

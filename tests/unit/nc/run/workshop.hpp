@@ -19,7 +19,7 @@ class Workshop : public Control {
     program("TOOL CALL 5 Z S1000 F500\nL X+10 Y+10 Z+50 R0 FMAX\n" + body);
     last = run();
     Lines moves;
-    for (std::string line : tracing->lines()) {
+    for (std::string line : machine->lines()) {
       if (!line.starts_with("L ") && !line.starts_with("ARC ") && !line.starts_with("DWELL")) {
         continue;
       }

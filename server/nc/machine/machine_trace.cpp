@@ -1,22 +1,22 @@
-#include "nc/machine/control.hpp"
+#include "nc/machine/machine.hpp"
 
 namespace fitgauge::machine {
 
 std::string_view name(MoveKind kind) { return word_of(kind, {"rapid", "feed", "probe", "arc"}); }
 
-void Control::trace(std::function<void(const TracedMove&)> keep, std::size_t longest) {
+void Machine::trace(std::function<void(const TracedMove&)> keep, std::size_t longest) {
   keep_ = std::move(keep);
   left_ = longest;
 }
 
-MachineResult<void> Control::move(const LinearMove& move) {
+MachineResult<void> Machine::move(const LinearMove& move) {
   const auto begun = begin();
   auto done = move_straight(move);
   if (begun) keep(move.feed.is_rapid ? MoveKind::Rapid : MoveKind::Feed, *begun, move.feed);
   return done;
 }
 
-MachineResult<void> Control::move_arc(const ArcMove& arc) {
+MachineResult<void> Machine::move_arc(const ArcMove& arc) {
   const auto begun = begin();
   const auto kept = begun ? std::optional(traced(arc, *begun)) : std::nullopt;
   auto done = move_around(arc);
@@ -24,19 +24,19 @@ MachineResult<void> Control::move_arc(const ArcMove& arc) {
   return done;
 }
 
-MachineResult<ContactPoint> Control::probe(const ProbeMove& move) {
+MachineResult<ContactPoint> Machine::probe(const ProbeMove& move) {
   const auto begun = begin();
   auto contact = touch(move);
   if (begun) keep_probing(*begun, move, contact);
   return contact;
 }
 
-std::optional<Control::Begun> Control::begin() const {
+std::optional<Machine::Begun> Machine::begin() const {
   if (!keep_) return std::nullopt;
   return Begun{state_.position(), machine_tip(), state_.elapsed_s};
 }
 
-void Control::add(const TracedMove& move) {
+void Machine::add(const TracedMove& move) {
   if (left_ == 0) {
     ++untraced_;
     return;
@@ -45,7 +45,7 @@ void Control::add(const TracedMove& move) {
   keep_(move);
 }
 
-void Control::keep(MoveKind kind, const Begun& begun, const Feed& feed,
+void Machine::keep(MoveKind kind, const Begun& begun, const Feed& feed,
                    const std::optional<TracedArc>& arc) {
   const Position end = state_.position();
   const double seconds = state_.elapsed_s - begun.elapsed_s;
@@ -61,7 +61,7 @@ void Control::keep(MoveKind kind, const Begun& begun, const Feed& feed,
 }
 
 /// An arc in the machine's coordinates, where a mirror turns it the other way round.
-TracedArc Control::traced(const ArcMove& arc, const Begun& begun) const {
+TracedArc Machine::traced(const ArcMove& arc, const Begun& begun) const {
   const Frames& frames = state_.frames;
   const std::size_t up = index(arc.normal);
   TracedArc traced{.centre = arc.centre, .sweep_deg = arc.sweep_deg, .axis = arc.normal};
@@ -75,7 +75,7 @@ TracedArc Control::traced(const ArcMove& arc, const Begun& begun) const {
   return traced;
 }
 
-void Control::keep_probing(const Begun& begun, const ProbeMove& move,
+void Machine::keep_probing(const Begun& begun, const ProbeMove& move,
                            const MachineResult<ContactPoint>& result) {
   const Feed feed = Feed::at(move.feed);
   if (!result) {

@@ -1,4 +1,4 @@
-#include "nc/machine/control.hpp"
+#include "nc/machine/machine.hpp"
 #include "nc/machine/tolerance.hpp"
 
 namespace fitgauge::machine {
@@ -17,7 +17,7 @@ MachineResult<void> check_finite(const AxisWords& words) {
 
 }  // namespace
 
-MachineResult<void> Control::move_straight(const LinearMove& move) {
+MachineResult<void> Machine::move_straight(const LinearMove& move) {
   TRY(check_feed(move.feed));
   TRY(check_finite(move.target));
   const auto rotary = TRY(target_rotary(move));
@@ -35,7 +35,7 @@ MachineResult<void> Control::move_straight(const LinearMove& move) {
   return travel(path, move.feed);
 }
 
-MachineResult<Vec3> Control::target_rotary(const LinearMove& move) const {
+MachineResult<Vec3> Machine::target_rotary(const LinearMove& move) const {
   Vec3 rotary = state_.nose.rotary;
   for (const Axis axis : {Axis::A, Axis::B, Axis::C}) {
     const auto& word = move.target[axis];
@@ -56,7 +56,7 @@ MachineResult<Vec3> Control::target_rotary(const LinearMove& move) const {
 }
 
 /// Returns the end position of the nose with the rotary axes at `rotary`; `frames` are valid there.
-MachineResult<Position> Control::target_nose(const LinearMove& move, const Frames& frames,
+MachineResult<Position> Machine::target_nose(const LinearMove& move, const Frames& frames,
                                              const Vec3& rotary) const {
   bool has_linear = false;
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
@@ -81,7 +81,7 @@ MachineResult<Position> Control::target_nose(const LinearMove& move, const Frame
 }
 
 /// With TCPM the tip runs straight on the table while the rotary axes turn.
-Path Control::following_path(const Position& end) const {
+Path Machine::following_path(const Position& end) const {
   const Kinematics kinematics = state_.kinematics;
   const Axis axis = state_.tool_axis();
   const double length = state_.tool_length();
@@ -109,7 +109,7 @@ Path Control::following_path(const Position& end) const {
   return path;
 }
 
-MachineResult<void> Control::move_around(const ArcMove& arc) {
+MachineResult<void> Machine::move_around(const ArcMove& arc) {
   TRY(check_feed(arc.feed));
   constexpr double kLongestSweepDeg = 1e6;
   TRY(require(is_finite(arc.end) && is_finite(arc.centre) && !is_rotary(arc.normal) &&
@@ -154,7 +154,7 @@ MachineResult<void> Control::move_around(const ArcMove& arc) {
 
 /// Checks a way that is not straight: first its end, then every 0.1 degrees, unless all places as
 /// near to the start are in range.
-MachineResult<void> Control::check_way(const Path& path, double turn_deg) {
+MachineResult<void> Machine::check_way(const Path& path, double turn_deg) {
   TRY(check_range(path.end));
   bool is_clear = true;
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
@@ -175,7 +175,7 @@ MachineResult<void> Control::check_way(const Path& path, double turn_deg) {
   return {};
 }
 
-MachineResult<void> Control::check_range(const Position& nose) const {
+MachineResult<void> Machine::check_range(const Position& nose) const {
   for (const Axis axis : kAllAxes) {
     const auto& range = state_.ranges[index(axis)];
     if (!range) continue;
@@ -188,28 +188,28 @@ MachineResult<void> Control::check_range(const Position& nose) const {
   return {};
 }
 
-void Control::stand_at(const Position& nose) {
+void Machine::stand_at(const Position& nose) {
   const bool has_turned = nose.rotary != state_.nose.rotary;
   state_.nose = nose;
   if (has_turned && is_following()) state_.frames.set_table(state_.kinematics.table(nose.rotary));
 }
 
-MachineResult<void> Control::check_feed(const Feed& feed) {
+MachineResult<void> Machine::check_feed(const Feed& feed) {
   const bool is_usable = feed.rate > 0 && (feed.is_rapid || std::isfinite(feed.rate));
   if (is_usable) return {};
   return make_fault(FaultKind::FeedMissing, "a feed of {} mm/min", feed.rate);
 }
 
-double Control::seconds_of(double way, const Feed& feed) const {
+double Machine::seconds_of(double way, const Feed& feed) const {
   constexpr double kSecondsPerMinute = 60;
   return std::min(way / feed.rate_on(state_.rapid_mm_min) * kSecondsPerMinute, kLongestSeconds);
 }
 
-void Control::spend(double seconds) {
+void Machine::spend(double seconds) {
   state_.elapsed_s = std::min(state_.elapsed_s + seconds, kLongestSeconds);
 }
 
-Motion Control::motion(const Feed& feed, bool is_retract) {
+Motion Machine::motion(const Feed& feed, bool is_retract) {
   const Tool* row = state_.active_tool();
   return {.feed = Feed{feed.is_rapid, feed.rate_on(state_.rapid_mm_min)},
           .tool = {.number = state_.tool.number,
@@ -223,14 +223,14 @@ Motion Control::motion(const Feed& feed, bool is_retract) {
           .is_retract = is_retract};
 }
 
-MachineResult<double> Control::follow(const Path& path, const Motion& motion) {
+MachineResult<double> Machine::follow(const Path& path, const Motion& motion) {
   const bool is_linear = path.is_straight || path.end.linear == path.start.linear;
   if (is_linear || axes_->capabilities().curves) return axes_->follow(path, motion);
   return follow_pieces(path, motion, 0, 1);
 }
 
 /// Halves the part of the path until each piece is straight.
-MachineResult<double> Control::follow_pieces(const Path& path, const Motion& motion, double from,
+MachineResult<double> Machine::follow_pieces(const Path& path, const Motion& motion, double from,
                                              double to) {
   constexpr double kLongestPiece = 0.125;
   const Position start = path.nose(from);
@@ -246,7 +246,7 @@ MachineResult<double> Control::follow_pieces(const Path& path, const Motion& mot
   return part ? MachineResult<double>(*part < 1 ? from + (to - from) * *part : to) : part;
 }
 
-MachineResult<void> Control::travel(const Path& path, const Feed& feed, bool is_retract) {
+MachineResult<void> Machine::travel(const Path& path, const Feed& feed, bool is_retract) {
   const auto part = follow(path, motion(feed, is_retract));
   stand_at(axes_->nose());
   if (!part) return part.error();

@@ -1,8 +1,8 @@
-#include "nc/machine/control.hpp"
+#include "nc/machine/machine.hpp"
 
 namespace fitgauge::machine {
 
-Control::Control(const MachineSetup& setup, std::unique_ptr<Axes> axes, Allowance* allowance)
+Machine::Machine(const MachineSetup& setup, std::unique_ptr<Axes> axes, Allowance* allowance)
     : axes_(std::move(axes)), allowance_(allowance != nullptr ? *allowance : unlimited_) {
   std::vector<RotaryAxis> rotary;
   for (const Axis axis : kAllAxes) {
@@ -24,7 +24,7 @@ Control::Control(const MachineSetup& setup, std::unique_ptr<Axes> axes, Allowanc
   state_.nose = axes_->nose();
 }
 
-MachineResult<void> Control::call_tool(const ToolCall& call) {
+MachineResult<void> Machine::call_tool(const ToolCall& call) {
   if (!call.axis && !state_.tool.axis) return make_fault(FaultKind::ToolAxisMissing);
   TRY(require(!call.axis || !is_rotary(*call.axis), "the tool axis is X, Y or Z"));
   TRY(require(is_finite({call.dl, call.dr, call.dr2}) && call.spindle_rpm.value_or(0) >= 0,
@@ -40,14 +40,14 @@ MachineResult<void> Control::call_tool(const ToolCall& call) {
   return {};
 }
 
-MachineResult<void> Control::write_tool(const Tool& tool) {
+MachineResult<void> Machine::write_tool(const Tool& tool) {
   if (!is_finite({tool.l, tool.r, tool.r2}) || !is_finite({tool.dl, tool.dr, tool.dr2}))
     return make_fault(FaultKind::ValueInvalid, "lengths of tool {}", tool.number);
   state_.tools.write(tool);
   return {};
 }
 
-MachineResult<void> Control::write_probe(const ProbeRow& row) {
+MachineResult<void> Machine::write_probe(const ProbeRow& row) {
   if (!is_finite({row.cal_of1, row.cal_of2, row.cal_ang}) ||
       !is_finite({row.feed, row.rapid, row.distance + row.set_up})) {
     return make_fault(FaultKind::ValueInvalid, "values of probe {}", row.number);
@@ -56,7 +56,7 @@ MachineResult<void> Control::write_probe(const ProbeRow& row) {
   return {};
 }
 
-MachineResult<void> Control::write_preset(const Preset& preset) {
+MachineResult<void> Machine::write_preset(const Preset& preset) {
   const auto& [origin, rotation, offsets] = preset.frame;
   if (!is_finite(origin) || !is_finite(rotation) || !is_finite(offsets) || preset.number < 0)
     return make_fault(FaultKind::ValueInvalid, "values of preset {}", preset.number);
@@ -71,14 +71,14 @@ MachineResult<void> Control::write_preset(const Preset& preset) {
   return {};
 }
 
-MachineResult<void> Control::write_tool_touch_probe(const ToolTouchProbe& tt) {
+MachineResult<void> Machine::write_tool_touch_probe(const ToolTouchProbe& tt) {
   TRY(require(is_finite(tt.centre) && std::isfinite(tt.radius) && tt.radius > 0,
               "centre and radius of the tool touch probe"));
   state_.tt = tt;
   return {};
 }
 
-MachineResult<void> Control::activate_preset(int number) {
+MachineResult<void> Machine::activate_preset(int number) {
   const Preset* preset = state_.presets.find(number);
   if (preset == nullptr) return make_fault(FaultKind::PresetUnknown, "row {}", number);
   state_.active_preset = number;
@@ -87,14 +87,14 @@ MachineResult<void> Control::activate_preset(int number) {
   return {};
 }
 
-MachineResult<void> Control::set_frames(const Frames& frames) {
+MachineResult<void> Machine::set_frames(const Frames& frames) {
   TRY(require(frames.is_valid(), "a frame is not finite or scales by 0"));
   state_.frames = frames;
   refresh_table();
   return {};
 }
 
-MachineResult<void> Control::set_modes(const Modes& modes) {
+MachineResult<void> Machine::set_modes(const Modes& modes) {
   if (modes.tcpm && !state_.kinematics_options.tcpm)
     return make_fault(FaultKind::OptionMissing, "TCPM (tcpm_option of the setup)");
   TRY(require(modes.spindle_rpm >= 0 && modes.feed_mm_min >= 0,
@@ -105,7 +105,7 @@ MachineResult<void> Control::set_modes(const Modes& modes) {
   return {};
 }
 
-MachineResult<void> Control::set_kinematics(const Kinematics& kinematics) {
+MachineResult<void> Machine::set_kinematics(const Kinematics& kinematics) {
   for (const RotaryAxis& axis : kinematics.axes()) {
     if (!state_.ranges[index(axis.axis)])
       return make_fault(FaultKind::AxisMissing, name(axis.axis));
@@ -118,12 +118,12 @@ MachineResult<void> Control::set_kinematics(const Kinematics& kinematics) {
   return {};
 }
 
-void Control::refresh_table() {
+void Machine::refresh_table() {
   state_.frames.set_table(is_following() ? state_.kinematics.table(state_.nose.rotary)
                                          : Transform{});
 }
 
-MachineResult<void> Control::dwell(double seconds) {
+MachineResult<void> Machine::dwell(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0)
     return make_fault(FaultKind::ValueInvalid, "a dwell of {} s", seconds);
   TRY(axes_->dwell(seconds, allowance_));
@@ -131,7 +131,7 @@ MachineResult<void> Control::dwell(double seconds) {
   return {};
 }
 
-MachineResult<ContactPoint> Control::touch(const ProbeMove& move) {
+MachineResult<ContactPoint> Machine::touch(const ProbeMove& move) {
   if (!state_.tool.axis) return make_fault(FaultKind::ToolAxisMissing);
   if (state_.active_tool() == nullptr) return make_fault(FaultKind::NoTool);
   TRY(check_feed(Feed::at(move.feed)));
@@ -168,7 +168,7 @@ MachineResult<ContactPoint> Control::touch(const ProbeMove& move) {
 }
 
 /// The way back, at most to the start, is free, since the ball came along it.
-MachineResult<void> Control::go_back(const Position& start, const Vec3& direction,
+MachineResult<void> Machine::go_back(const Position& start, const Vec3& direction,
                                      const ProbeMove& move) {
   const Position contact = state_.nose;
   const double way = dot(contact.linear - start.linear, direction);
@@ -181,7 +181,7 @@ MachineResult<void> Control::go_back(const Position& start, const Vec3& directio
 
 /// Returns the distance that the nose can move along `direction` inside its ranges, at most
 /// `distance`.
-double Control::reach(const Vec3& direction, double distance) const {
+double Machine::reach(const Vec3& direction, double distance) const {
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
     const auto& range = state_.ranges[index(axis)];
     const double part = direction[index(axis)];
@@ -192,7 +192,7 @@ double Control::reach(const Vec3& direction, double distance) const {
   return distance;
 }
 
-ContactPoint Control::contact_point(const Vec3& direction) const {
+ContactPoint Machine::contact_point(const Vec3& direction) const {
   const Frames& frames = state_.frames;
   Vec3 centre = state_.ball_centre(CoordinateSystem::Machine);
   if (const auto probe = state_.probe_system())
