@@ -19,36 +19,6 @@ NcResult<double> arithmetic(Channel& channel, NodeIndex index) {
   return result;
 }
 
-/// A column that is a plain number.
-struct Column {
-  std::int64_t nr;
-  std::string_view name;
-  double Tool::*value;
-};
-
-constexpr Column kColumns[] = {
-    {1, "L", &Tool::l},
-    {2, "R", &Tool::r},
-    {3, "R2", &Tool::r2},
-    {4, "DL", &Tool::dl},
-    {5, "DR", &Tool::dr},
-    {6, "DR2", &Tool::dr2},
-    {9, "TIME1", &Tool::time1},
-    {10, "TIME2", &Tool::time2},
-    {11, "CUR_TIME", &Tool::current_time},
-    {13, "LCUTS", &Tool::cutting_length},
-    {14, "ANGLE", &Tool::plunge_angle},
-    {16, "LTOL", &Tool::l_tolerance},
-    {17, "RTOL", &Tool::r_tolerance},
-    {19, "R-OFFS", &Tool::r_offset},
-    {20, "L-OFFS", &Tool::l_offset},
-    {21, "LBREAK", &Tool::l_breakage},
-    {22, "RBREAK", &Tool::r_breakage},
-    {28, "NMAX", &Tool::max_rpm},
-    {32, "T-ANGLE", &Tool::point_angle},
-    {33, "PITCH", &Tool::pitch},
-};
-
 /// A column that is a whole number from 0.
 struct WholeColumn {
   std::int64_t nr;
@@ -66,7 +36,7 @@ constexpr WholeColumn kWholeColumns[] = {
 template <class Columns>
 auto column(const Columns& columns, std::int64_t nr) {
   const auto* it = std::ranges::find_if(columns, [nr](const auto& each) { return each.nr == nr; });
-  return it == std::end(columns) ? nullptr : it;
+  return nr == 0 || it == std::end(columns) ? nullptr : it;
 }
 
 template <class Columns>
@@ -165,7 +135,7 @@ NcResult<bool> condition(Channel& channel, NodeIndex index) {
 }
 
 std::optional<double> tool_value(const Tool& tool, std::int64_t nr) {
-  if (const Column* plain = column(kColumns, nr)) return tool.*plain->value;
+  if (const machine::ToolColumn* plain = column(machine::kToolColumns, nr)) return tool.*plain->value;
   if (const WholeColumn* whole = column(kWholeColumns, nr)) return tool.*whole->value;
   switch (nr) {
     case 7: return tool.locked ? 1 : 0;
@@ -175,7 +145,7 @@ std::optional<double> tool_value(const Tool& tool, std::int64_t nr) {
 }
 
 ToolWrite set_tool_value(Tool& tool, std::int64_t nr, double value) {
-  if (const Column* plain = column(kColumns, nr)) {
+  if (const machine::ToolColumn* plain = column(machine::kToolColumns, nr)) {
     tool.*plain->value = value;
     return ToolWrite::Done;
   }
@@ -193,12 +163,12 @@ ToolWrite set_tool_value(Tool& tool, std::int64_t nr, double value) {
 }
 
 std::int64_t tool_column(std::string_view name) {
-  const std::int64_t plain = number_of(kColumns, name);
+  const std::int64_t plain = number_of(machine::kToolColumns, name);
   return plain != 0 ? plain : number_of(kWholeColumns, name);
 }
 
 NcResult<void> note_lathe_value(Channel& channel, const Tool& tool, std::int64_t nr) {
-  const auto* known = column(kColumns, nr);
+  const auto* known = column(machine::kToolColumns, nr);
   const bool is_length =
       known != nullptr && (known->value == &Tool::l || known->value == &Tool::r ||
                            known->value == &Tool::dl || known->value == &Tool::dr);

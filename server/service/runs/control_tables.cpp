@@ -131,31 +131,7 @@ constexpr const char* kLatheTable = "toolturn.trn";
 constexpr const char* kPresetTable = "preset.pr";
 constexpr std::array kTables = {kProbeTable, kToolTable, kLatheTable, kPresetTable};
 
-template <class Owner>
-using Column = std::pair<std::string_view, double Owner::*>;
-
-constexpr Column<Tool> kToolLengths[] = {
-    {"L", &Tool::l},
-    {"R", &Tool::r},
-    {"R2", &Tool::r2},
-    {"DL", &Tool::dl},
-    {"DR", &Tool::dr},
-    {"DR2", &Tool::dr2},
-    {"LCUTS", &Tool::cutting_length},
-    {"LTOL", &Tool::l_tolerance},
-    {"RTOL", &Tool::r_tolerance},
-    {"R2TOL", &Tool::r2_tolerance},
-    {"R-OFFS", &Tool::r_offset},
-    {"L-OFFS", &Tool::l_offset},
-    {"LBREAK", &Tool::l_breakage},
-    {"RBREAK", &Tool::r_breakage},
-    {"PITCH", &Tool::pitch},
-};
-constexpr Column<Tool> kToolNumbers[] = {
-    {"TIME1", &Tool::time1},        {"TIME2", &Tool::time2},  {"CUR_TIME", &Tool::current_time},
-    {"ANGLE", &Tool::plunge_angle}, {"NMAX", &Tool::max_rpm}, {"T-ANGLE", &Tool::point_angle},
-};
-constexpr Column<ProbeRow> kProbeLengths[] = {
+constexpr std::pair<std::string_view, double ProbeRow::*> kProbeLengths[] = {
     {"CAL_OF1", &ProbeRow::cal_of1}, {"CAL_OF2", &ProbeRow::cal_of2}, {"F", &ProbeRow::feed},
     {"FMAX", &ProbeRow::rapid},      {"DIST", &ProbeRow::distance},   {"SET_UP", &ProbeRow::set_up},
 };
@@ -163,8 +139,9 @@ constexpr Column<ProbeRow> kProbeLengths[] = {
 void read(Row& row, Tool& tool) {
   tool.number = row.number();
   tool.name = row.text("NAME");
-  for (const auto& [column, value] : kToolLengths) row.length(column, tool.*value);
-  for (const auto& [column, value] : kToolNumbers) row.number(column, tool.*value);
+  for (const auto& [name, value, nr, is_length] : machine::kToolColumns) {
+    is_length ? row.length(name, tool.*value) : row.number(name, tool.*value);
+  }
   tool.locked = row.text("TL") == "L";
   tool.clockwise = row.text("DIRECT") != "+";
   row.whole("RT", tool.replacement);
