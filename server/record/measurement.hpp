@@ -242,18 +242,13 @@ void apply_no_limits(Measurement& measurement, std::optional<Length> nominal);
 /// @pre a rule of conformance can accept some value
 void judge(Measurement& measurement);
 
-struct SizeLimits {
-  Length upper;
-  Length lower;
-};
-
 /// A size, or the position of a centre, from a measuring cycle.
 struct CycleSize {
   gauging::Quantity quantity = gauging::Quantity::Diameter;
   iso286::Feature feature = iso286::Feature::Hole;
   std::optional<Length> nominal;
   Length measured;
-  std::optional<SizeLimits> limits{};
+  std::optional<gauging::Limits> limits{};
 };
 
 /// Sets the size with the limits of its drawing and judges it; without limits it is unjudged.

@@ -213,19 +213,19 @@ void members(auto& v, const RunMessage& message) {
              "Line of the program as written; present with `column`");
 }
 
-void members(auto& v, const probing::MeasuredSize& size) {
+void members(auto& v, const probing::MeasuredValue& size) {
   const auto* limits = size.limits ? &*size.limits : nullptr;
   v.member("characteristic", size.characteristic, "Measured quantity: diameter, width");
   v.member("nominal_mm", size.nominal, Millimetres{});
   v.member("measured_mm", size.measured, Millimetres{});
-  v.member("deviation_um", size.measured - size.nominal, Micrometres{}, "Measured minus nominal");
+  v.member("deviation_um", size.deviation(), Micrometres{}, "Measured minus nominal");
   v.optional("upper_limit_mm", limits != nullptr ? &limits->upper : nullptr, Millimetres{},
              "Limit, if the cycle has limits");
   v.optional("lower_limit_mm", limits != nullptr ? &limits->lower : nullptr, Millimetres{},
              "Limit, if the cycle has limits");
   v.optional("uncertainty_um", size.uncertainty, Micrometres{},
              "Standard uncertainty, if the setup states that of a touch: twice it is a guard band");
-  v.member("verdict", size.verdict, kVerdict);
+  v.member("verdict", size.verdict(), kVerdict);
 }
 
 void members(auto& v, const probing::Form& form) {

@@ -32,28 +32,22 @@ class ErrorSet {
 
   constexpr ErrorSet() = default;
   constexpr ErrorSet(std::initializer_list<int> numbers) {
-    for (const int number : numbers) words_.at(word(number)) |= bit(number);
+    for (const int number : numbers) bits_ |= Bits{1} << (number - kFirst);
   }
 
   constexpr bool contains(int number) const {
-    if (number < kFirst || number > kLast) return false;
-    return (words_.at(word(number)) & bit(number)) != 0;
+    return number >= kFirst && number <= kLast && (bits_ >> (number - kFirst) & 1U) != 0;
   }
 
   friend constexpr ErrorSet operator|(ErrorSet a, const ErrorSet& b) {
-    for (std::size_t k = 0; k < a.words_.size(); ++k) a.words_.at(k) |= b.words_.at(k);
+    a.bits_ |= b.bits_;
     return a;
   }
 
  private:
-  static constexpr std::size_t word(int number) {
-    return static_cast<std::size_t>(number - kFirst) / 64;
-  }
-  static constexpr std::uint64_t bit(int number) {
-    return std::uint64_t{1} << (static_cast<unsigned>(number - kFirst) % 64);
-  }
+  __extension__ using Bits = unsigned __int128;
 
-  std::array<std::uint64_t, 2> words_{};
+  Bits bits_ = 0;
 };
 
 /// First words of the block that defines the cycle. One number may mean two cycles: TCH PROBE 3

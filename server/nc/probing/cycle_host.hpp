@@ -7,27 +7,40 @@
 
 namespace fitgauge::probing {
 
-/// Limits of a measured value; both belong to the good values.
-struct Limits {
-  Length upper;
-  Length lower;
+using gauging::Limits;
 
-  friend bool operator==(const Limits&, const Limits&) = default;
+/// The kind of a value, which decides the meaning of "out of tolerance".
+enum class ValueRole : std::uint8_t {
+  HoleSize,   ///< too small is rework, too large is reject
+  ShaftSize,  ///< too large is rework, too small is reject
+  Position,   ///< either side is reject (decision 1)
 };
 
-/// One size, coordinate or position a cycle has measured.
-struct MeasuredSize {
-  std::string_view characteristic{};  ///< "diameter", "centre main axis": constant text
-  iso286::Feature feature = iso286::Feature::Hole;
-  bool is_position = false;  ///< of a centre: without feature of size, out of tolerance is reject
+/// A measured value of a cycle with its texts for results, status, log and record. Lengths in whole
+/// nanometres: the unit of comparisons with limits (decision 13) and of Q parameters (decision 21).
+struct MeasuredValue {
+  std::string_view characteristic{};  ///< "Diameter", as in the log: constant text
+  ValueRole role = ValueRole::HoleSize;
   Length nominal{};
   Length measured{};
-  std::optional<Limits> limits{};             ///< nothing when the block switches the check off
-  std::optional<Length> uncertainty{};        ///< standard uncertainty, if it decides
-  std::optional<gauging::Verdict> verdict{};  ///< nothing without limits
+  std::optional<Limits> limits{};  ///< nothing when the block switches the check off
+  std::uint16_t result_q = 0;      ///< receives the measured value; 0 is none
+  std::uint16_t deviation_q = 0;   ///< receives the deviation; 0 is none
+  int error_too_large = 1072;      ///< of Q309
+  int error_too_small = 1072;
+  bool is_face = false;  ///< a position that is judged as a size, by the side of its material
+  std::optional<Length> uncertainty{};  ///< standard uncertainty, if it decides
 
+  bool is_position() const { return is_face || role == ValueRole::Position; }
+  /// Of a size or a face.
+  iso286::Feature feature() const;
+  Length deviation() const { return measured - nominal; }
   /// Its uncertainty makes a guard band.
   gauging::DecisionRule rule() const;
+  /// Limits are inclusive (decision 1); nothing without limits.
+  std::optional<gauging::Verdict> verdict() const;
+  /// The error of Q309 when the value is out of tolerance, else 0.
+  int error() const;
 };
 
 /// The judgement of form that the number of points of a circular feature allows.
@@ -57,7 +70,7 @@ constexpr gauging::Quantity quantity_of(int cycle, bool is_position) {
 /// The outcome of a measuring cycle, stored with the run.
 struct MeasuringRecord {
   std::uint16_t cycle = 0;
-  std::vector<MeasuredSize> sizes{};          ///< sizes, then positions; none for 0 and 1
+  std::vector<MeasuredValue> sizes{};         ///< sizes, then positions; none for 0 and 1
   bool has_status = false;                    ///< its verdict is the run's until the next one
   std::optional<gauging::Verdict> verdict{};  ///< of the whole cycle; nothing without limits
   std::optional<Form> form{};                 ///< of circular features
@@ -145,34 +158,6 @@ class CycleHost {
   virtual CycleResult<KinematicsRecords> kinematics_records() = 0;
   /// Replaces them. @errors when the run's output budget is used up.
   virtual CycleResult<void> keep_kinematics(const KinematicsRecords& records) = 0;
-};
-
-/// The kind of a value, which decides the meaning of "out of tolerance".
-enum class ValueRole : std::uint8_t {
-  HoleSize,   ///< too small is rework, too large is reject
-  ShaftSize,  ///< too large is rework, too small is reject
-  Position,   ///< either side is reject (decision 1)
-};
-
-/// A measured value of a cycle with its texts for results, status, log and record. Lengths in whole
-/// nanometres: the unit of comparisons with limits (decision 13) and of Q parameters (decision 21).
-struct MeasuredValue {
-  std::string_view characteristic{};  ///< "Diameter", as in the log
-  ValueRole role = ValueRole::HoleSize;
-  Length nominal{};
-  Length measured{};
-  std::optional<Limits> limits{};
-  std::uint16_t result_q = 0;     ///< receives the measured value; 0 is none
-  std::uint16_t deviation_q = 0;  ///< receives the deviation; 0 is none
-  int error_too_large = 1072;     ///< of Q309
-  int error_too_small = 1072;
-  bool is_position = false;  ///< a face: judged as a size, by the side of its material
-
-  Length deviation() const { return measured - nominal; }
-  /// Limits are inclusive (decision 1); without limits every value is good.
-  gauging::Verdict verdict() const;
-  /// The error of Q309 when the value is out of tolerance, else 0.
-  int error() const;
 };
 
 /// A length in the nearest nanometre. @pre finite and within 1e12 mm.

@@ -36,24 +36,13 @@ std::string_view word(CycleKind kind) {
 std::string_view symbol(Unit unit) { return word_of(unit, {"", "mm", "deg", "mm/min"}); }
 
 std::string name(const CycleParameter& parameter) {
-  constexpr std::array<std::string_view, 15> kWords{"Q",
-                                                    "axis",
-                                                    "direction",
-                                                    "X",
-                                                    "Y",
-                                                    "Z",
-                                                    "ANGLE",
-                                                    "ABST",
-                                                    "F",
-                                                    "MB",
-                                                    "REFERENCE SYSTEM",
-                                                    "ERRORMODE",
-                                                    "CHECK",
-                                                    "HEIGHT",
-                                                    "PROBING THE TEETH"};
-  const auto id = static_cast<std::uint16_t>(parameter.id);
-  if (is_word(parameter.id))
-    return std::string(kWords.at(id - static_cast<std::size_t>(ParameterId::WordResult)));
+  const auto id = static_cast<int>(parameter.id);
+  if (is_word(parameter.id)) {
+    return std::string(
+        word_of(id - static_cast<int>(ParameterId::WordResult),
+                {"Q", "axis", "direction", "X", "Y", "Z", "ANGLE", "ABST", "F", "MB",
+                 "REFERENCE SYSTEM", "ERRORMODE", "CHECK", "HEIGHT", "PROBING THE TEETH"}));
+  }
   return (parameter.is_text() ? "QS" : "Q") + std::to_string(id);
 }
 

@@ -164,7 +164,7 @@ NcResult<void> execute(Channel& channel, const klartext::CircleData& data) {
     const auto source = TRY(after(data.first_point, i));
     coordinates[i] = TRY(number(channel, source));
   }
-  std::vector<probing::Point2> points;
+  std::vector<machine::Vec3> points;
   for (std::size_t i = 0; i < count; i += 2) points.push_back({coordinates[i], coordinates[i + 1]});
   const auto circle = TRY(probing::fit_circle(points));
   const std::array results{circle.centre.x, circle.centre.y, circle.radius};

@@ -35,8 +35,8 @@ std::vector<Diagnostic> findings_of(const RunResult& result) {
   }
   for (const Measurement& each : result.measurements) {
     const auto& sizes = each.record.sizes;  // positions come last, and belong to a size
-    if (sizes.empty() || sizes.front().is_position || each.record.cycle == 427) continue;
-    for (const probing::MeasuredSize& size : sizes) {
+    if (sizes.empty() || sizes.front().is_position() || each.record.cycle == 427) continue;
+    for (const probing::MeasuredValue& size : sizes) {
       const double measured = size.measured.to_mm();
       const double nominal = size.nominal.to_mm();
       if (std::abs(measured - nominal) <= kFar) continue;
@@ -101,7 +101,7 @@ NcResult<void> RunLog::record(probing::MeasuringRecord record, std::span<const P
   std::vector<DiagnosticNote> origins;
   if (measurements_.size() < kMostFindings) origins = origins_of_values(chain);
   const std::size_t size = sizeof(Measurement) + place.path().size() +
-                           record.sizes.size() * sizeof(probing::MeasuredSize) +
+                           record.sizes.size() * sizeof(probing::MeasuredValue) +
                            origins.size() * sizeof(DiagnosticNote);
   TRY(budget_.charge(size));
   measurements_.push_back({std::move(record), std::string(place.path()), place.line(),

@@ -153,7 +153,7 @@ Result<void> judge_by_class(Measurement& measurement, CollectedLog& log, const F
 }
 
 /// Returns the limits from `upper_um`, `lower_um` and the nominal size, or `upper_mm`, `lower_mm`.
-Result<std::optional<app::SizeLimits>> drawn_limits(const Fields& fields, Length nominal) {
+Result<std::optional<gauging::Limits>> drawn_limits(const Fields& fields, Length nominal) {
   for (const bool as_deviation : {true, false}) {
     const char* const names[] = {as_deviation ? "upper_um" : "upper_mm",
                                  as_deviation ? "lower_um" : "lower_mm"};
@@ -162,9 +162,9 @@ Result<std::optional<app::SizeLimits>> drawn_limits(const Fields& fields, Length
     const auto lower = TRY(as_deviation ? fields.micrometres(names[1]) : fields.length(names[1]));
     const Length base = as_deviation ? nominal : Length();
     if (upper < lower) return invalid_field("the upper limit must not be below the lower limit");
-    return std::optional(app::SizeLimits{.upper = base + upper, .lower = base + lower});
+    return std::optional(gauging::Limits{.upper = base + upper, .lower = base + lower});
   }
-  return std::optional<app::SizeLimits>();
+  return std::optional<gauging::Limits>();
 }
 
 Result<void> judge_by_drawing(Measurement& measurement, const Fields& fields) {

@@ -135,8 +135,8 @@ void check_iso286(const References& references, const iso286::ToleranceTables& t
 void add_fits(const References& references, Figures& to) {
   for (int k = 1; k <= 6; ++k) {
     const std::string name = fmt::format("circle.{}", k);
-    std::vector<probing::Point2> points;
-    for (const Words& row : references.set(name)) points.push_back({point(row).x, point(row).y});
+    std::vector<machine::Vec3> points;
+    for (const Words& row : references.set(name)) points.push_back(point(row));
     const auto circle = probing::fit_circle(points);
     if (circle) to.add(name, ".x .y .r", {circle->centre.x, circle->centre.y, circle->radius});
   }

@@ -141,10 +141,10 @@ std::vector<machine::Axis> axes_of(const machine::Setup& setup) {
   return axes;
 }
 
-using probing::MeasuredSize;
+using probing::MeasuredValue;
 
 Measurement record_of(const RunReport& report, const interpreter::Measurement& measured,
-                      const MeasuredSize& size, const std::optional<std::string>& caller) {
+                      const MeasuredValue& size, const std::optional<std::string>& caller) {
   Measurement record;
   record.source = Source::Simulation;
   record.measured_at = record.received_at = report.finished_at;
@@ -156,9 +156,8 @@ Measurement record_of(const RunReport& report, const interpreter::Measurement& m
   record.run_id = report.id;
   record.origin = report.origin;
   record.cycle = measured.record.cycle;
-  std::optional<SizeLimits> limits;
-  if (size.limits) limits = {.upper = size.limits->upper, .lower = size.limits->lower};
-  const gauging::Quantity quantity = probing::quantity_of(measured.record.cycle, size.is_position);
+  const gauging::Quantity quantity =
+      probing::quantity_of(measured.record.cycle, size.is_position());
   if (gauging::has_feature(quantity)) record.size_operator = "GG";
   if (const auto& form = measured.record.form; form && quantity == gauging::Quantity::Diameter) {
     record.points = static_cast<std::int64_t>(form->points);
@@ -172,10 +171,10 @@ Measurement record_of(const RunReport& report, const interpreter::Measurement& m
     }
   }
   judge_size(record, {.quantity = quantity,
-                      .feature = size.feature,
+                      .feature = size.feature(),
                       .nominal = size.nominal,
                       .measured = size.measured,
-                      .limits = limits});
+                      .limits = size.limits});
   return record;
 }
 
@@ -252,12 +251,12 @@ std::vector<Measurement> measurements_of(const RunReport& report,
   std::vector<Measurement> records;
   for (const interpreter::Measurement& measured : report.result.measurements) {
     const auto& sizes = measured.record.sizes;
-    const auto is_judged = [](const MeasuredSize& size) { return size.limits.has_value(); };
+    const auto is_judged = [](const MeasuredValue& size) { return size.limits.has_value(); };
     const bool judges = std::ranges::any_of(sizes, is_judged);
-    for (const MeasuredSize& size : sizes) {
+    for (const MeasuredValue& size : sizes) {
       // A place without limits is the result only of a cycle that measures no size.
       const bool is_result = !judges && &size == &sizes.front();
-      if (size.is_position && !is_judged(size) && !is_result) continue;
+      if (size.is_position() && !is_judged(size) && !is_result) continue;
       records.push_back(record_of(report, measured, size, caller));
     }
   }

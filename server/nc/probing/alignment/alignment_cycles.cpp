@@ -50,9 +50,9 @@ constexpr std::array k402Parameters = list(
     kSetUpClearance, kClearanceHeight, kMoveToClearance, kCompensation);
 
 /// The angle of the line between two centres less Q307, as basic rotation or by turning the table.
-CycleResult<void> compensate(const CycleContext& context, const WorkingPlane& plane, Point2 first,
-                             Point2 second) {
-  const Vec3 direction{second.x - first.x, second.y - first.y, 0};
+CycleResult<void> compensate(const CycleContext& context, const WorkingPlane& plane,
+                             const Vec3& first, const Vec3& second) {
+  const Vec3 direction = second - first;
   if (direction == Vec3{}) return nc_error(1081, "both centres are the same");
   const double angle =
       workpiece_angle(context.state().frames, plane, direction) - context.number(307);
@@ -67,35 +67,33 @@ CycleResult<void> compensate(const CycleContext& context, const WorkingPlane& pl
 }
 
 CycleResult<void> two_holes(const CycleContext& context, ProbingMotion& motion) {
-  const std::array nominal{point_of(context, 268, 269), point_of(context, 270, 271)};
+  const std::array nominal{place_of(context, 268, 269, 261), place_of(context, 270, 271, 261)};
   const auto holes = probe_hole_centres(context, motion, nominal);
   if (!holes) {
-    const std::array places{PlannedPlace{Side::Inside, place_of(context, 268, 269, 261)},
-                            PlannedPlace{Side::Inside, place_of(context, 270, 271, 261)}};
+    const std::array places{PlannedPlace{Side::Inside, nominal[0]},
+                            PlannedPlace{Side::Inside, nominal[1]}};
     return with_part(holes.error(), context, motion.plane(), places);
   }
   return compensate(context, motion.plane(), holes->front(), holes->back());
 }
 
-CycleResult<Point2> stud_centre(const CycleContext& context, ProbingMotion& motion, Point2 nominal,
-                                double diameter, double height) {
+CycleResult<Vec3> stud_centre(const CycleContext& context, ProbingMotion& motion,
+                              const Vec3& nominal, double diameter) {
   const auto touches = circle_touches({.side = Side::Outside,
                                        .centre = nominal,
                                        .diameter = diameter,
-                                       .height = height,
                                        .start_distance = motion.start_distance(),
                                        .via_clearance = context.whole(301) == 1});
-  const PlannedPlace place{Side::Outside, {nominal.x, nominal.y, height}};
-  const auto contacts = TRY(touch_part(context, motion, touches, place));
+  const auto contacts = TRY(touch_part(context, motion, touches, {Side::Outside, nominal}));
   const auto circle = TRY(circle_through(contacts, Side::Outside, motion.ball_radius()));
   return circle.centre;
 }
 
 CycleResult<void> two_studs(const CycleContext& context, ProbingMotion& motion) {
-  const auto first = TRY(stud_centre(context, motion, point_of(context, 268, 269),
-                                     context.number(313), context.number(261)));
-  const auto second = TRY(stud_centre(context, motion, point_of(context, 270, 271),
-                                      context.number(314), context.number(315)));
+  const auto first =
+      TRY(stud_centre(context, motion, place_of(context, 268, 269, 261), context.number(313)));
+  const auto second =
+      TRY(stud_centre(context, motion, place_of(context, 270, 271, 315), context.number(314)));
   return compensate(context, motion.plane(), first, second);
 }
 
@@ -151,10 +149,10 @@ constexpr std::array k405Parameters = list(
     choice(337, "Set to zero: 0 the table, else the row of the datum table for its offset", 0, 9999,
            0));
 
-double angle_of(Point2 point) { return machine::degrees(std::atan2(point.y, point.x)); }
+double angle_of(const Vec3& point) { return machine::degrees(std::atan2(point.y, point.x)); }
 
 CycleResult<void> align_hole(const CycleContext& context, ProbingMotion& motion) {
-  const Point2 nominal = point_of(context, 321, 322);
+  const Vec3 nominal = place_of(context, 321, 322, 261);
   const auto probed = TRY(probe_circle(context, motion, Side::Inside, nominal));
   const double wanted = nominal.y == 0 ? 90 : angle_of(nominal);
   const double misalignment = std::remainder(angle_of(probed.circle.centre) - wanted, 360);

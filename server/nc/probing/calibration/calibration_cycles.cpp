@@ -18,8 +18,7 @@ constexpr CycleParameter kStandardTouches = choice(423, "Number of touches", 3, 
 /// The circle, or sphere, of the ball centres around a standard as the control computes them with
 /// the probe data it has; in plane coordinates.
 struct RoundStandard {
-  Point2 centre;
-  double height = 0;    ///< of a sphere's centre
+  machine::Vec3 centre;
   double radius = 0;    ///< of the ball centres, not of the surface
   double residual = 0;  ///< largest distance of a touch from the circle
 };
@@ -84,7 +83,7 @@ CycleResult<double> positive(double value, std::string_view what) {
 /// execution. After an error no table has changed.
 class ProbeCalibrator {
  public:
-  using Pass = std::function<CycleResult<RoundStandard>(Point2 near)>;
+  using Pass = std::function<CycleResult<RoundStandard>(const Vec3& near)>;
 
   /// @errors 1007 and 1008 with scaling or mirror active, 1075 in a tilted plane, and those of
   ///   ProbingMotion::begin.
@@ -101,8 +100,8 @@ class ProbeCalibrator {
   /// clearance height.
   const Vec3& start() const { return start_; }
 
-  /// Touches Q423 times around a point from the angle Q380 on, the ball centre at `height`.
-  CycleResult<RoundStandard> touch_around(Side side, Point2 centre, double height) {
+  /// Touches Q423 times around a point from the angle Q380 on, the ball centre at its height.
+  CycleResult<RoundStandard> touch_around(Side side, const Vec3& centre) {
     const int points = context_.whole(423);
     constexpr double kTurn = 360;
     const auto touches = circle_touches({.side = side,
@@ -111,29 +110,27 @@ class ProbeCalibrator {
                                          .start_angle = context_.number(380),
                                          .step = kTurn / points,
                                          .points = points,
-                                         .height = height,
                                          .start_distance = motion_.start_distance(),
                                          .via_clearance = context_.number_or(301, 0) == 1});
     const auto contacts = TRY(motion_.touch_all(touches, start_.z));
     const auto circle = TRY(circle_through(contacts, side, 0));
-    return RoundStandard{circle.centre, height, circle.radius, circle.residual};
+    return RoundStandard{
+        {circle.centre.x, circle.centre.y, centre.z}, circle.radius, circle.residual};
   }
 
   /// Probes once from the current position to find the standard, then once at its centre for each
   /// position of the spindle. Ends at the clearance height over the centre.
   CycleResult<ReversalResult> measure(const Pass& pass) {
-    const auto near = TRY(turned(0, pass, {start_.x, start_.y}));
+    const auto near = TRY(turned(0, pass, start_));
     const auto first = TRY(turned(0, pass, near.centre));
     const auto second = TRY(turned(180, pass, near.centre));
-    const RoundStandard mean{
-        {(first.centre.x + second.centre.x) / 2, (first.centre.y + second.centre.y) / 2},
-        (first.height + second.height) / 2,
-        (first.radius + second.radius) / 2,
-        std::max(first.residual, second.residual)};
+    const RoundStandard mean{(first.centre + second.centre) * 0.5,
+                             (first.radius + second.radius) / 2,
+                             std::max(first.residual, second.residual)};
     TRY(motion_.move_tip(machine::AxisWords::linear(
         motion_.plane().to_input({mean.centre.x, mean.centre.y, start_.z}))));
-    const Vec3 error{(second.centre.x - first.centre.x) / 2, (second.centre.y - first.centre.y) / 2,
-                     0};
+    Vec3 error = (second.centre - first.centre) * 0.5;
+    error.z = 0;
     return ReversalResult{
         mean, context_.state().frames.direction_to_machine(motion_.plane().to_input(error))};
   }
@@ -181,7 +178,7 @@ class ProbeCalibrator {
         motion_(motion),
         start_(motion.plane().from_input(context.machine.position().linear)) {}
 
-  CycleResult<RoundStandard> turned(double spindle_deg, const Pass& pass, Point2 near) {
+  CycleResult<RoundStandard> turned(double spindle_deg, const Pass& pass, const Vec3& near) {
     const auto orient = [this](double degrees) {
       machine::Modes modes = context_.state().modes;
       modes.spindle_deg = degrees;
@@ -208,14 +205,15 @@ constexpr std::array k460Parameters =
 /// The sphere through a horizontal circle and a point near its pole.
 RoundStandard sphere_through(const RoundStandard& circle, const Vec3& pole) {
   const double beside = std::hypot(pole.x - circle.centre.x, pole.y - circle.centre.y);
-  const double above = pole.z - circle.height;
+  const double above = pole.z - circle.centre.z;
   const double rise =
       (above * above + beside * beside - circle.radius * circle.radius) / (2 * above);
-  return {circle.centre, circle.height + rise, std::hypot(circle.radius, rise), circle.residual};
+  return {circle.centre + Vec3{0, 0, rise}, std::hypot(circle.radius, rise), circle.residual};
 }
 
 /// Touches the sphere from above and around its equator.
-CycleResult<RoundStandard> touch_sphere(ProbeCalibrator& calibrator, double radius, Point2 near) {
+CycleResult<RoundStandard> touch_sphere(ProbeCalibrator& calibrator, double radius,
+                                        const Vec3& near) {
   ProbingMotion& motion = calibrator.motion();
   const double start_height = calibrator.start().z;
   const std::array down{Touch{.start = {near.x, near.y, start_height + motion.ball_radius()},
@@ -223,7 +221,7 @@ CycleResult<RoundStandard> touch_sphere(ProbeCalibrator& calibrator, double radi
   const auto contacts = TRY(motion.touch_all(down, start_height));
   const Vec3 pole = contacts.front().ball_centre;
   const double equator = pole.z - (radius + motion.ball_radius());
-  const auto circle = TRY(calibrator.touch_around(Side::Outside, near, equator));
+  const auto circle = TRY(calibrator.touch_around(Side::Outside, {near.x, near.y, equator}));
   return sphere_through(circle, pole);
 }
 
@@ -231,7 +229,7 @@ CycleResult<void> calibrate_on_sphere(const CycleContext& context) {
   const double radius = context.number(407);
   auto calibrator = TRY(ProbeCalibrator::begin(context));
   const auto measured =
-      TRY(calibrator.measure([&](Point2 near) { return touch_sphere(calibrator, radius, near); }));
+      TRY(calibrator.measure(std::bind_front(touch_sphere, std::ref(calibrator), radius)));
 
   const machine::ProbeSystem probe = *context.state().probe_system();
   ProbeCalibration found{.radius = measured.mean.radius - radius,
@@ -239,7 +237,7 @@ CycleResult<void> calibrate_on_sphere(const CycleContext& context) {
                          .residual = measured.mean.residual};
   if (context.whole(433) == 1) {
     // The ball centre is one radius above the south pole, where the length ends.
-    const double too_high = measured.mean.height - context.number(434);
+    const double too_high = measured.mean.centre.z - context.number(434);
     found.length = probe.length + too_high + *found.radius - probe.radius;
   }
   return calibrator.finish(found);
@@ -272,8 +270,9 @@ double measuring_height(ProbeCalibrator& calibrator, Side side) {
 CycleResult<void> calibrate_radius(const CycleContext& context, Side side) {
   auto calibrator = TRY(ProbeCalibrator::begin(context));
   const double height = measuring_height(calibrator, side);
-  const auto measured = TRY(
-      calibrator.measure([&](Point2 near) { return calibrator.touch_around(side, near, height); }));
+  const auto measured = TRY(calibrator.measure([&](const Vec3& near) {
+    return calibrator.touch_around(side, {near.x, near.y, height});
+  }));
   const double radius = measured.mean.radius - context.number(407);
   return calibrator.finish({.radius = side == Side::Inside ? -radius : radius,
                             .centre_offset = calibrator.corrected_offset(measured.error),

@@ -124,7 +124,6 @@ CycleResult<Vec3> KinematicsProbing::touch(const Vec3& direction) {
                                                    .distance = probe_.data.distance,
                                                    .feed = probe_.data.feed,
                                                    .system = CoordinateSystem::Machine,
-                                                   .retract = std::nullopt,
                                                    .retract_feed = feed()}));
   publish_touch(state(), context_.host, contact);
   return contact.tip_machine + tool_direction() * probe_.radius;

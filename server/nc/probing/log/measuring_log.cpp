@@ -115,18 +115,23 @@ CycleResult<void> add_section(CycleHost& host, const HtmlLog& log, std::string_v
 
 using gauging::Verdict;
 
-Verdict MeasuredValue::verdict() const {
-  if (!limits) return Verdict::Good;
-  if (role == ValueRole::Position) {
-    const bool inside = measured >= limits->lower && measured <= limits->upper;
-    return inside ? Verdict::Good : Verdict::Reject;
-  }
-  const auto feature = role == ValueRole::HoleSize ? iso286::Feature::Hole : iso286::Feature::Shaft;
-  return gauging::gauge(feature, limits->upper, limits->lower, measured).verdict;
+iso286::Feature MeasuredValue::feature() const {
+  return role == ValueRole::ShaftSize ? iso286::Feature::Shaft : iso286::Feature::Hole;
+}
+
+gauging::DecisionRule MeasuredValue::rule() const {
+  return uncertainty ? gauging::DecisionRule::guard_band(*uncertainty).value()
+                     : gauging::DecisionRule();
+}
+
+std::optional<Verdict> MeasuredValue::verdict() const {
+  if (!limits) return std::nullopt;
+  const auto beyond = role == ValueRole::Position ? gauging::Beyond() : gauging::Beyond(feature());
+  return gauging::gauge(beyond, limits->upper, limits->lower, measured, rule()).verdict;
 }
 
 int MeasuredValue::error() const {
-  if (verdict() == Verdict::Good) return 0;
+  if (verdict().value_or(Verdict::Good) == Verdict::Good) return 0;
   return measured > limits->upper ? error_too_large : error_too_small;
 }
 
@@ -154,26 +159,15 @@ std::optional<Limits> position_limits(Length nominal, Length tolerance) {
   return Limits{nominal + tolerance, nominal - tolerance};
 }
 
-gauging::DecisionRule MeasuredSize::rule() const {
-  return uncertainty ? gauging::DecisionRule::guard_band(*uncertainty).value()
-                     : gauging::DecisionRule();
-}
-
 void judge_by_uncertainty(MeasuringRecord& record) {
   if (!record.form || !record.form->touch_uncertainty_um) return;
   const auto uncertainty =
       gauging::rounded_up(record.form->diameter_factor * *record.form->touch_uncertainty_um);
-  std::optional<gauging::Verdict> worst;
-  for (MeasuredSize& size : record.sizes) {
-    const gauging::Quantity quantity = quantity_of(record.cycle, size.is_position);
-    if (!size.limits || quantity != gauging::Quantity::Diameter) continue;
-    size.uncertainty = uncertainty;
-    size.verdict = gauging::gauge(size.feature, size.limits->upper, size.limits->lower,
-                                  size.measured, size.rule())
-                       .verdict;
-  }
-  for (const MeasuredSize& size : record.sizes) {
-    if (gauging::severity(worst) < gauging::severity(size.verdict)) worst = size.verdict;
+  std::optional<Verdict> worst;
+  for (MeasuredValue& size : record.sizes) {
+    const gauging::Quantity quantity = quantity_of(record.cycle, size.is_position());
+    if (size.limits && quantity == gauging::Quantity::Diameter) size.uncertainty = uncertainty;
+    if (gauging::severity(worst) < gauging::severity(size.verdict())) worst = size.verdict();
   }
   if (worst) record.verdict = worst;
 }

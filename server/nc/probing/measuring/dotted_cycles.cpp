@@ -111,7 +111,6 @@ machine::ProbeMove probe_move(const Arguments& arguments, const Vec3& direction,
   machine::ProbeMove move{.direction = direction,
                           .distance = arguments.number(ParameterId::WordDistance),
                           .feed = probe.feed,
-                          .retract = std::nullopt,
                           .retract_feed = machine::Feed::rapid(probe.rapid)};
   if (arguments.has_number(ParameterId::WordFeed))
     move.feed = arguments.number(ParameterId::WordFeed);

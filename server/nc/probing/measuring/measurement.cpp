@@ -42,7 +42,8 @@ void set_status(CycleHost& host, std::optional<Verdict> verdict) {
   host.set_q(kStatusReject, verdict == Verdict::Reject ? 1 : 0, Unit::None);
 }
 
-/// Returns the first value with the worst verdict: reject before rework before good (decision 1).
+/// Returns the first value with the worst verdict: reject before rework before good (decision 1),
+/// and before a value without limits.
 const MeasuredValue& worst(const std::vector<MeasuredValue>& values) {
   return *std::ranges::max_element(
       values, {}, [](const auto& value) { return gauging::severity(value.verdict()); });
@@ -66,26 +67,12 @@ void publish(CycleHost& host, std::span<const MeasuredValue> values) {
 }
 
 MeasuringRecord record_of(const CycleContext& context, const Measurement& measurement) {
-  const bool is_judged =
-      std::ranges::any_of(measurement.values, [](const auto& value) { return !!value.limits; });
-  MeasuringRecord record{
-      .cycle = context.descriptor().number,
-      .has_status = true,
-      .verdict = is_judged ? std::optional(worst(measurement.values).verdict()) : std::nullopt,
-      .form = measurement.form};
-  for (const MeasuredValue& value : measurement.values) {
-    const bool shaft = value.role == ValueRole::ShaftSize;
-    record.sizes.push_back(
-        {.characteristic = value.characteristic,
-         .feature = shaft ? iso286::Feature::Shaft : iso286::Feature::Hole,
-         .is_position = value.is_position || value.role == ValueRole::Position,
-         .nominal = value.nominal,
-         .measured = value.measured,
-         .limits = value.limits,
-         .verdict = value.limits ? std::optional(value.verdict()) : std::nullopt});
-  }
-  std::stable_partition(record.sizes.begin(), record.sizes.end(),
-                        [](const MeasuredSize& size) { return !size.is_position; });
+  MeasuringRecord record{.cycle = context.descriptor().number,
+                         .sizes = measurement.values,
+                         .has_status = true,
+                         .verdict = worst(measurement.values).verdict(),
+                         .form = measurement.form};
+  std::ranges::stable_partition(record.sizes, std::not_fn(&MeasuredValue::is_position));
   return record;
 }
 
@@ -132,7 +119,7 @@ CycleResult<void> finish_measurement(const CycleContext& context, const Measurem
   CycleHost& host = context.host;
   const MeasuredValue& decisive = worst(measurement.values);
   publish(host, measurement.values);
-  set_status(host, decisive.verdict());
+  set_status(host, decisive.verdict().value_or(Verdict::Good));
   MeasuringLog log(context.descriptor(), host);
   add_values(log, measurement.values);
   log.section("Further results");
@@ -140,8 +127,8 @@ CycleResult<void> finish_measurement(const CycleContext& context, const Measurem
   add_short_arc(log, measurement.form);
   TRY(deliver_log(context, std::move(log)));
   const MeasuringRecord record = record_of(context, measurement);
-  for (const MeasuredSize& size : record.sizes) {
-    const bool is_size = gauging::has_feature(quantity_of(record.cycle, size.is_position));
+  for (const MeasuredValue& size : record.sizes) {
+    const bool is_size = gauging::has_feature(quantity_of(record.cycle, size.is_position()));
     if (!is_size || !size.limits || size.limits->lower != Length{}) continue;
     TRY(host.note(
         fmt::format("the minimum of \"{}\" is 0: no size is too small", size.characteristic)));
@@ -153,7 +140,7 @@ CycleResult<void> finish_measurement(const CycleContext& context, const Measurem
   return {};
 }
 
-std::array<MeasuredValue, 2> centre_values(const Arguments& arguments, Point2 centre) {
+std::array<MeasuredValue, 2> centre_values(const Arguments& arguments, const Vec3& centre) {
   const Length main = to_length(arguments.number(273));
   const Length secondary = to_length(arguments.number(274));
   return {MeasuredValue{.characteristic = "Centre, main axis",

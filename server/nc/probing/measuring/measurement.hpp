@@ -52,11 +52,7 @@ MeasuringRecord record_of(const CycleContext& context, const Measurement& measur
 /// @errors 1092 and 1065 of the tool; a tolerance stop with the error of the worst value.
 CycleResult<void> finish_measurement(const CycleContext& context, const Measurement& measurement);
 
-constexpr ValueRole size_role(Side side) {
-  return side == Side::Inside ? ValueRole::HoleSize : ValueRole::ShaftSize;
-}
-
 /// The centre of a measured feature against Q273 ± Q279 and Q274 ± Q280: Q151, Q152, Q161, Q162.
-std::array<MeasuredValue, 2> centre_values(const Arguments& arguments, Point2 centre);
+std::array<MeasuredValue, 2> centre_values(const Arguments& arguments, const Vec3& centre);
 
 }  // namespace fitgauge::probing

@@ -26,7 +26,7 @@ CycleResult<void> measure_angle(const CycleContext& context, ProbingMotion& moti
   constexpr std::array<std::string_view, 2> kNames{"1st point", "2nd point"};
   for (std::size_t k = 0; k < 2; ++k) {
     record.sizes.push_back({.characteristic = kNames.at(k),
-                            .is_position = true,
+                            .role = ValueRole::Position,
                             .nominal = to_length(edge.coordinates.at(k).nominal),
                             .measured = to_length(edge.coordinates.at(k).measured)});
   }
@@ -48,29 +48,22 @@ constexpr std::array k431Results =
          results(173, Unit::Length, "1st point, probe axis", "2nd point, probe axis",
                  "3rd point, probe axis"));
 
-struct TiltedAxes {
-  Vec3 main;
-  Vec3 secondary;
-  Vec3 normal;
-};
-
-/// Points 1 and 2 define the direction of the main axis, point 3 that of the secondary axis.
-CycleResult<TiltedAxes> axes_through(const std::vector<Contact>& contacts) {
+/// The axes of the measured plane as rows: main, secondary, normal. Points 1 and 2 define the
+/// direction of the main axis, point 3 that of the secondary axis.
+CycleResult<Matrix3> axes_through(const std::vector<Contact>& contacts) {
   const Vec3 along = contacts[1].ball_centre - contacts[0].ball_centre;
   const Vec3 side = contacts[2].ball_centre - contacts[0].ball_centre;
-  const auto plane = fit_plane(centres_in_space(contacts), cross(along, side));
+  const auto plane = fit_plane(ball_centres(contacts), cross(along, side));
   if (!plane) return nc_error(1081, "the three points lie on a straight line");
-  TiltedAxes axes{.main = unit(along), .secondary = {}, .normal = plane->normal};
-  axes.secondary = cross(axes.normal, axes.main);
-  return axes;
+  return Matrix3{{unit(along), cross(plane->normal, unit(along)), plane->normal}};
 }
 
 /// The spatial angles of PLANE SPATIAL that tilt the working plane into the measured one.
-Vec3 spatial_angles_of(const TiltedAxes& axes, const WorkingPlane& plane) {
+Vec3 spatial_angles_of(const Matrix3& axes, const WorkingPlane& plane) {
   Matrix3 columns;
-  columns.rows[index(plane.main)] = plane.to_input(axes.main);
-  columns.rows[index(plane.secondary)] = plane.to_input(axes.secondary);
-  columns.rows[index(plane.probe)] = plane.to_input(axes.normal);
+  columns.rows[index(plane.main)] = plane.to_input(axes.rows[0]);
+  columns.rows[index(plane.secondary)] = plane.to_input(axes.rows[1]);
+  columns.rows[index(plane.probe)] = plane.to_input(axes.rows[2]);
   return machine::spatial_angles(columns.transposed());
 }
 
@@ -93,7 +86,7 @@ CycleResult<void> measure_plane(const CycleContext& context, ProbingMotion& moti
     context.host.set_q(result.q, to_angle(angle), Unit::Angle);
     log.number(result.meaning, angle);
   };
-  const Vec3& n = axes.normal;
+  const Vec3& n = axes.rows[2];
   const Vec3 spatial = spatial_angles_of(axes, motion.plane());
   publish_angle(k431Results[0], machine::degrees(std::atan2(-n.y, n.z)));
   publish_angle(k431Results[1], machine::degrees(std::atan2(n.x, n.z)));
@@ -106,7 +99,7 @@ CycleResult<void> measure_plane(const CycleContext& context, ProbingMotion& moti
     context.host.set_q(k431Results[5 + i].q, height.to_mm(), Unit::Length);
     log.length(k431Results[5 + i].meaning, height);
     record.sizes.push_back({.characteristic = k431Results[5 + i].meaning,
-                            .is_position = true,
+                            .role = ValueRole::Position,
                             .nominal = to_length(touches[i].start.z + back.z),
                             .measured = height});
   }

@@ -29,22 +29,6 @@ constexpr HtmlLog k444Log{"TCHPR444.html", "Measuring log of cycle 444",
                           "Measuring log of touch-probe cycle 444 PROBING IN 3-D",
                           "Along the normal, positive is away from the material."};
 
-/// Style of a verdict: colour, border and word.
-struct Appearance {
-  std::string_view style;
-  std::string_view words;
-  int q183;
-};
-
-Appearance appearance(const std::optional<Verdict>& verdict) {
-  if (!verdict) return {"none", "– No tolerance", -1};
-  switch (*verdict) {
-    case Verdict::Good: return {"good", "✓ Good", 0};
-    case Verdict::Rework: return {"rework", "▲ Rework: above the upper limit", 1};
-    default: return {"scrap", "✗ Scrap: below the lower limit", 2};
-  }
-}
-
 /// Styles of the values along the axes and along the normal.
 using Styles = std::array<std::string_view, 4>;
 
@@ -83,9 +67,9 @@ Styles styles_of(const ProbedPoint& point) {
     const Verdict verdict = value > limit(point.limits->upper)   ? Verdict::Rework
                             : value < limit(point.limits->lower) ? Verdict::Reject
                                                                  : Verdict::Good;
-    styles.at(axis) = appearance(verdict).style;
+    styles.at(axis) = ObjectStatus::of(verdict).style;
   }
-  styles.back() = appearance(point.verdict).style;
+  styles.back() = ObjectStatus::of(point.verdict).style;
   return styles;
 }
 
@@ -116,15 +100,16 @@ std::string rows(const ProbedPoint& point, bool inch) {
 }
 
 std::string section(const CycleHost& host, const ProbedPoint& point) {
-  const Appearance look = appearance(point.verdict);
+  const ObjectStatus status = ObjectStatus::of(point.verdict);
+  const std::string_view beyond = status.q183 == 1   ? ": above the upper limit"
+                                  : status.q183 == 2 ? ": below the lower limit"
+                                                     : "";
   return fmt::format(templates::point::section, "when"_a = date_and_time(host),
-                     "style"_a = look.style, "words"_a = look.words, "q183"_a = look.q183,
+                     "style"_a = status.style,
+                     "words"_a = fmt::format("{}{}", status.words, beyond), "q183"_a = status.q183,
                      "main"_a = name(point.plane.main), "secondary"_a = name(point.plane.secondary),
                      "probe"_a = name(point.plane.probe), "rows"_a = rows(point, host.is_inch()));
 }
-
-constexpr std::uint16_t kTolerance = 400;  ///< QS400
-constexpr std::uint16_t kStatus = 183;     ///< -1 no tolerance, 0 good, 1 rework, 2 reject
 
 constexpr std::array kParameters = list(
     coordinates(263, "Nominal point, main axis", "Nominal point, secondary axis"),
@@ -134,18 +119,13 @@ constexpr std::array kParameters = list(
     tolerance_text("Tolerance along the normal, such as \"0.4-0.1\""),
     choice(309, "Stop out of tolerance: 0 no, 1 yes, 2 below the lower limit", 0, 2, 0));
 
-constexpr std::array<CycleOutput, 8> kResults{
-    {{151, "Point, main axis", Unit::Length},
-     {152, "Point, secondary axis", Unit::Length},
-     {153, "Point, probe axis", Unit::Length},
-     {161, "Deviation, main axis", Unit::Length},
-     {162, "Deviation, secondary axis", Unit::Length},
-     {163, "Deviation, probe axis", Unit::Length},
-     {164, "Deviation along the surface normal", Unit::Length},
-     {kStatus, "Status: -1 no tolerance, 0 good, 1 rework, 2 reject", Unit::None}}};
-
-constexpr std::array<std::string_view, 3> kAxisNames{"Point, main axis", "Point, secondary axis",
-                                                     "Point, probe axis"};
+constexpr std::array kPointResults =
+    results(151, Unit::Length, "Point, main axis", "Point, secondary axis", "Point, probe axis");
+constexpr std::array kResults =
+    list(kPointResults,
+         results(161, Unit::Length, "Deviation, main axis", "Deviation, secondary axis",
+                 "Deviation, probe axis", "Deviation along the surface normal"),
+         kStatusResult);
 
 /// The normal is not zero and QS400 can be read, in whatever unit.
 CycleResult<void> check_arguments(const Arguments& arguments) {
@@ -156,9 +136,7 @@ CycleResult<void> check_arguments(const Arguments& arguments) {
     return nc_error(1042,
                     "Q581, Q582 and Q583 are 0: give the surface normal, away from the material");
   }
-  const std::string* tolerance = arguments.text(q(kTolerance));
-  if (tolerance == nullptr) return {};
-  TRY(parse_tolerance(*tolerance, false));
+  TRY(tolerance_of(arguments, false));
   return {};
 }
 
@@ -209,7 +187,7 @@ CycleResult<ProbedPoint> touch_point(const CycleContext& context,
     point.nominal[axis] = to_length(nominal[axis]);
     point.measured[axis] = to_length(surface[axis]);
   }
-  if (limits) point.verdict = normal_deviation(point).verdict();
+  point.verdict = normal_deviation(point).verdict();
   return point;
 }
 
@@ -220,44 +198,33 @@ void write_results(CycleHost& host, const ProbedPoint& point) {
     host.set_q(result(161), (point.measured[axis] - point.nominal[axis]).to_mm(), Unit::Length);
   }
   host.set_q(164, point.deviation.to_mm(), Unit::Length);
-  host.set_q(kStatus, appearance(point.verdict).q183, Unit::None);
+  host.set_q(kStatusResult.q, ObjectStatus::of(point.verdict).q183, Unit::None);
 }
 
 MeasuringRecord make_record(const ProbedPoint& point) {
-  const MeasuredValue deviation = normal_deviation(point);
-  MeasuringRecord record{.cycle = 444, .has_status = true, .verdict = point.verdict};
-  record.sizes.push_back({.characteristic = deviation.characteristic,
-                          .feature = iso286::Feature::Shaft,
-                          .measured = deviation.measured,
-                          .limits = deviation.limits,
-                          .verdict = point.verdict});
+  MeasuringRecord record{.cycle = 444,
+                         .sizes = {normal_deviation(point)},
+                         .has_status = true,
+                         .verdict = point.verdict};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    record.sizes.push_back({.characteristic = kAxisNames[axis],
-                            .is_position = true,
+    record.sizes.push_back({.characteristic = kPointResults[axis].meaning,
+                            .role = ValueRole::Position,
                             .nominal = point.nominal[axis],
                             .measured = point.measured[axis]});
   }
   return record;
 }
 
-/// Q309; without a tolerance nothing stops (decision 14).
-bool stops(int reaction, const std::optional<Verdict>& verdict) {
-  if (verdict == Verdict::Reject) return reaction != 0;
-  return verdict == Verdict::Rework && reaction == 1;
-}
-
 CycleResult<void> measure(const CycleContext& context) {
   CycleHost& host = context.host;
-  host.set_q(kStatus, -1, Unit::None);
-  const std::string* tolerance = context.text(q(kTolerance));
-  const auto limits =
-      TRY(parse_tolerance(tolerance == nullptr ? std::string_view{} : *tolerance, host.is_inch()));
+  host.set_q(kStatusResult.q, -1, Unit::None);
+  const auto limits = TRY(tolerance_of(context, host.is_inch()));
   const auto point = TRY(touch_point(context, limits));
 
   write_results(host, point);
   TRY(add_section(host, k444Log, section(host, point)));
   host.record(make_record(point));
-  if (stops(context.whole(309), point.verdict)) return tolerance_stop(1072);
+  if (ObjectStatus::of(point.verdict).stops(context.whole(309))) return tolerance_stop(1072);
   return {};
 }
 

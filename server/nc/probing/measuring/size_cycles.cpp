@@ -26,7 +26,7 @@ CycleResult<void> measure_circle(const CycleContext& context, Side side) {
   const bool inside = side == Side::Inside;
   const auto limits = TRY(inside ? size_limits(context, 275, 276) : size_limits(context, 277, 278));
   auto motion = TRY(begin_measurement(context));
-  const auto probed = TRY(probe_circle(context, motion, side, point_of(context, 273, 274)));
+  const auto probed = TRY(probe_circle(context, motion, side, place_of(context, 273, 274, 261)));
 
   const MeasuredValue diameter{.characteristic = "Diameter",
                                .role = size_role(side),
@@ -76,7 +76,7 @@ CycleResult<void> measure_rectangle(const CycleContext& context, Side side) {
   auto motion = TRY(begin_measurement(context));
   const std::array nominal{context.number(282), context.number(283)};
   const auto rectangle =
-      TRY(probe_rectangle(context, motion, side, point_of(context, 273, 274), nominal));
+      TRY(probe_rectangle(context, motion, side, place_of(context, 273, 274, 261), nominal));
   const bool inside = side == Side::Inside;
   const auto value = [&](std::size_t axis, const std::optional<Limits>& limits) {
     const int error = static_cast<int>(axis) + (inside ? 1050 : 1054);

@@ -154,4 +154,9 @@ CycleResult<std::optional<Limits>> parse_tolerance(std::string_view text, bool i
   return std::optional(limits);
 }
 
+CycleResult<std::optional<Limits>> tolerance_of(const Arguments& arguments, bool inch) {
+  const std::string* text = arguments.text(q(400));
+  return parse_tolerance(text == nullptr ? std::string_view{} : *text, inch);
+}
+
 }  // namespace fitgauge::probing

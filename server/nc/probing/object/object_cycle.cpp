@@ -32,24 +32,10 @@ std::vector<MeasuredValue> values_of(const CycleDescriptor& cycle, const ObjectF
                       .limits = point.limits.at(i % 3),
                       .result_q = static_cast<std::uint16_t>(950 + i),
                       .deviation_q = static_cast<std::uint16_t>(980 + i),
-                      .is_position = true});
+                      .is_face = true});
   }
   values.insert(values.end(), found.sizes.begin(), found.sizes.end());
   return values;
-}
-
-/// Texts of a verdict in Q183 and in the log.
-struct ObjectStatus {
-  int q183 = -1;
-  std::string_view style = "none";
-  std::string_view words = "– No tolerance";
-};
-
-ObjectStatus status_of(const std::optional<Verdict>& verdict) {
-  if (!verdict) return {};
-  if (*verdict == Verdict::Good) return {0, "good", "✓ Good"};
-  if (*verdict == Verdict::Rework) return {1, "rework", "▲ Rework"};
-  return {2, "scrap", "✗ Scrap"};
 }
 
 CycleResult<void> log_object(const CycleContext& context, const std::vector<MeasuredValue>& values,
@@ -67,7 +53,7 @@ CycleResult<void> log_object(const CycleContext& context, const std::vector<Meas
     add(value.characteristic,
         {text(value.nominal), limits ? text(limits->lower) : "", limits ? text(limits->upper) : "",
          text(value.measured), text(value.deviation())},
-        limits ? status_of(value.verdict()).style : "none");
+        ObjectStatus::of(value.verdict()).style);
   }
   for (const auto& [label, result, measured, deviation] : angles) {
     add(label, {fixed(measured - deviation, 4), "", "", fixed(measured, 4), fixed(deviation, 4)},
@@ -82,6 +68,13 @@ CycleResult<void> log_object(const CycleContext& context, const std::vector<Meas
 }
 
 }  // namespace
+
+ObjectStatus ObjectStatus::of(const std::optional<Verdict>& verdict) {
+  if (!verdict) return {};
+  if (*verdict == Verdict::Good) return {0, "good", "✓ Good"};
+  if (*verdict == Verdict::Rework) return {1, "rework", "▲ Rework"};
+  return {2, "scrap", "✗ Scrap"};
+}
 
 CycleResult<ObjectProbing> ObjectProbing::begin(const CycleContext& context) {
   context.host.set_q(183, -1, Unit::None);
@@ -172,14 +165,13 @@ CycleResult<void> ObjectProbing::finish(const ObjectFound& found) {
     host.set_q(result + 30U, to_angle(angle.deviation), Unit::Angle);
   }
   const MeasuringRecord record = record_of(context_, {.values = values, .form = found.form});
-  const ObjectStatus status = status_of(record.verdict);
+  const ObjectStatus status = ObjectStatus::of(record.verdict);
   host.set_q(183, status.q183, Unit::None);
   TRY(log_object(context_, values, found.angles, status));
   host.record(record);
   TRY(transfer(found));
-  const int reaction = context_.whole(309);
-  const bool stops = status.q183 == 2 ? reaction != 0 : status.q183 == 1 && reaction == 1;
-  return stops ? CycleResult<void>(tolerance_stop(1072)) : CycleResult<void>();
+  if (status.stops(context_.whole(309))) return tolerance_stop(1072);
+  return {};
 }
 
 CycleResult<void> ObjectProbing::transfer(const ObjectFound& found) {

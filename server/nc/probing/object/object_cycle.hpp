@@ -36,6 +36,20 @@ CycleResult<Nominal> parse_nominal(std::string_view parameter, std::string_view 
 /// @errors 1011 naming the position, from 1, of the character that has no place there; also more
 ///   than 255 characters. 1004 a number beyond 99999.9999.
 CycleResult<std::optional<Limits>> parse_tolerance(std::string_view text, bool inch);
+/// The tolerance of a block, none if QS400 is left out.
+CycleResult<std::optional<Limits>> tolerance_of(const Arguments& arguments, bool inch);
+
+/// A verdict in Q183 and in the log. @see kStatusResult
+struct ObjectStatus {
+  int q183 = -1;
+  std::string_view style = "none";
+  std::string_view words = "– No tolerance";
+
+  static ObjectStatus of(const std::optional<gauging::Verdict>& verdict);
+  /// By Q309: 1 out of tolerance, 2 for reject alone; without a tolerance nothing stops (decision
+  /// 14).
+  bool stops(int q309) const { return q183 == 2 ? q309 != 0 : q183 == 1 && q309 == 1; }
+};
 
 /// A point of the nominal part and of the real one, in plane coordinates.
 struct ObjectPoint {
@@ -149,6 +163,9 @@ constexpr std::array<CycleParameter, 3> transfer_all(double most_position, doubl
 
 }  // namespace parameter
 
+inline constexpr CycleOutput kStatusResult{
+    183, "Status: -1 no tolerance, 0 good, 1 rework, 2 reject", Unit::None};
+
 /// Points, further results, the deviation of each, the status.
 template <std::size_t Points, std::size_t More>
 constexpr auto object_results(const std::array<CycleOutput, More>& more) {
@@ -165,7 +182,7 @@ constexpr auto object_results(const std::array<CycleOutput, More>& more) {
   for (std::size_t i = 0; i < 3 * Points; ++i)
     add(950 + static_cast<int>(i), kNames[i], Unit::Length);
   for (const CycleOutput& result : more) add(result.q, result.meaning, result.unit);
-  *next = {183, "Status: -1 no tolerance, 0 good, 1 rework, 2 reject", Unit::None};
+  *next = kStatusResult;
   return all;
 }
 inline constexpr CycleOutput kDiameterResult{966, "Diameter", Unit::Length};

@@ -125,12 +125,11 @@ CycleResult<ObjectCircle> circle_of(const ObjectProbing& probing, Side side, int
   return ObjectCircle{
       side, point, nominal,
       circle_touches({.side = side,
-                      .centre = {point.nominal.x, point.nominal.y},
+                      .centre = point.nominal,
                       .diameter = nominal.target.to_mm(),
                       .start_angle = arguments.number(325),
                       .step = sweep / (std::abs(sweep) == 360 ? points : points - 1),
                       .points = points,
-                      .height = point.nominal.z,
                       .start_distance = probing.start_distance()})};
 }
 
@@ -197,7 +196,7 @@ CycleResult<void> probe_sphere(const CycleContext& context) {
   object.touches.back().transit = Transit::ClearanceHeight;
   const auto contacts = TRY(probing.touch({object.touches}));
   const double ball = probing.motion().ball_radius();
-  const auto sphere = fit_sphere(centres_in_space(contacts), {centre, half + ball});
+  const auto sphere = fit_sphere(ball_centres(contacts), {centre, half + ball});
   if (!sphere) return nc_error(1081, "no sphere passes near the touched points");
   object.point.measured = sphere->centre;
   return probing.finish(
@@ -255,11 +254,6 @@ CycleResult<void> probe_edge(const CycleContext& context) {
   return found ? probing.finish(*found) : found.error();
 }
 
-CycleResult<std::optional<Limits>> tolerance_of(const Arguments& arguments, bool inch) {
-  const std::string* text = arguments.text(q(400));
-  return parse_tolerance(text == nullptr ? std::string_view{} : *text, inch);
-}
-
 CycleResult<void> probe_inclined(const CycleContext& context) {
   const int turn = context.whole(1131);
   if (turn == 0) return nc_error(1042, "Q1131 must be -1 or +1");
@@ -286,7 +280,7 @@ CycleResult<void> probe_inclined(const CycleContext& context) {
                          .role = ValueRole::ShaftSize,
                          .measured = to_length(dot(first.nominal - first.measured, direction)),
                          .limits = limits,
-                         .is_position = true});
+                         .is_face = true});
   return probing.finish(found);
 }
 
@@ -307,7 +301,7 @@ CycleResult<void> probe_plane(const CycleContext& context) {
   if (!expected || std::abs(dot(expected->normal, direction)) <= tolerance::kCollinear)
     return nc_error(1081, "the three points lie on a straight line");
   const auto contacts = TRY(probing.touch({touches}));
-  const auto plane = fit_plane(centres_in_space(contacts), -direction);
+  const auto plane = fit_plane(ball_centres(contacts), -direction);
   if (!plane) return nc_error(1081, "the three touched points lie on a straight line");
   const Vec3 normal = plane->normal;
   const double ball = probing.motion().ball_radius();
@@ -327,8 +321,8 @@ CycleResult<void> probe_plane(const CycleContext& context) {
 
 CycleResult<void> check_inclined(const Arguments& arguments) {
   TRY(check_dimensions(arguments));
-  const auto tolerance = tolerance_of(arguments, false);
-  return tolerance ? CycleResult<void>() : tolerance.error();
+  TRY(tolerance_of(arguments, false));
+  return {};
 }
 
 constexpr TouchProbeCycle kCycles[] = {

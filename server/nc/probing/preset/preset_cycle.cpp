@@ -21,17 +21,11 @@ Vec3 tidy(Vec3 point) {
   return point;
 }
 
-/// A DatumPoint in the machine's axes, with its point in the Basic coordinates of presets.
-struct Found {
-  Vec3 point;
-  std::array<bool, 3> axes{};
-  Vec3 datum;
-};
-
-Found found_in(const Frames& frames, const WorkingPlane& plane, const DatumPoint& found) {
-  Found made{.point = frames.from_machine(frames.to_machine(plane.to_input(found.point)),
-                                          CoordinateSystem::Basic),
-             .datum = plane.to_input(found.datum)};
+/// A point of the plane in the machine's axes, with its place in the Basic coordinates of presets.
+DatumPoint basic_of(const Frames& frames, const WorkingPlane& plane, const DatumPoint& found) {
+  DatumPoint made{.point = frames.from_machine(frames.to_machine(plane.to_input(found.point)),
+                                               CoordinateSystem::Basic),
+                  .datum = plane.to_input(found.datum)};
   made.axes[index(plane.main)] = found.axes[0];
   made.axes[index(plane.secondary)] = found.axes[1];
   made.axes[index(plane.probe)] = found.axes[2];
@@ -46,7 +40,7 @@ Matrix3 axes_of(const Frames& frames, const PresetFrame& preset) {
 
 /// Moves the zero of a preset along `axes` until the point has the coordinate `datum` in the named
 /// axes. Activating the row (247, Q305 = 0) leaves only the tilt.
-void move_zero(PresetFrame& preset, const Matrix3& axes, const Found& found) {
+void move_zero(PresetFrame& preset, const Matrix3& axes, const DatumPoint& found) {
   const Vec3 reading = axes.transposed() * (found.point - preset.origin);
   Vec3 way;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -56,7 +50,7 @@ void move_zero(PresetFrame& preset, const Matrix3& axes, const Found& found) {
 }
 
 CycleResult<void> write_preset(const CycleContext& context, const PresetFrame& turned,
-                               std::span<const Found> points) {
+                               std::span<const DatumPoint> points) {
   const machine::MachineState& state = context.state();
   const int number = context.whole(305);
   Preset row{.number = number, .comment = {}, .frame = turned};
@@ -66,21 +60,21 @@ CycleResult<void> write_preset(const CycleContext& context, const PresetFrame& t
     if (turned != state.frames.preset()) row.frame.basic_rotation_deg = turned.basic_rotation_deg;
   }
   const Matrix3 axes = axes_of(state.frames, row.frame);
-  for (const Found& point : points) move_zero(row.frame, axes, point);
+  for (const DatumPoint& point : points) move_zero(row.frame, axes, point);
   TRY(context.machine.write_preset(row));
   if (number != 0) return {};
   return context.machine.activate_preset(0);
 }
 
 CycleResult<void> write_datum_table(const CycleContext& context, const PresetFrame& turned,
-                                    std::span<const Found> points) {
+                                    std::span<const DatumPoint> points) {
   const Frames& frames = context.state().frames;
   const Matrix3 inverse = axes_of(frames, turned).transposed();
   // A shift of cycle 7 counts from the origin of the tilting.
   const Vec3 tilted_at = frames.plane() ? frames.plane()->origin : Vec3{};
   const Vec3 zero = turned.origin + Matrix3::spatial(turned.basic_rotation_deg) * tilted_at;
   AxisWords values;
-  for (const Found& found : points) {
+  for (const DatumPoint& found : points) {
     const Vec3 datum = tidy(inverse * (found.point - zero) - found.datum);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (found.axes[axis]) values.values[axis] = datum[axis];
@@ -97,13 +91,12 @@ void publish_circle(const CycleContext& context, Side side, const ProbedCircle& 
   const Circle& circle = probed.circle;
   CycleHost& host = context.host;
   set_lengths(host, 151, {circle.centre.x, circle.centre.y, 2 * circle.radius});
-  host.record(
-      {.cycle = context.descriptor().number,
-       .sizes = {{.characteristic = "Diameter",
-                  .feature = side == Side::Inside ? iso286::Feature::Hole : iso286::Feature::Shaft,
-                  .nominal = to_length(context.number(262)),
-                  .measured = to_length(2 * circle.radius)}},
-       .form = probed.form});
+  host.record({.cycle = context.descriptor().number,
+               .sizes = {{.characteristic = "Diameter",
+                          .role = size_role(side),
+                          .nominal = to_length(context.number(262)),
+                          .measured = to_length(2 * circle.radius)}},
+               .form = probed.form});
 }
 
 CycleResult<ProbingMotion> begin_preset(const CycleContext& context) {
@@ -117,8 +110,8 @@ CycleResult<void> transfer_datum(const CycleContext& context, const WorkingPlane
                                  std::span<const DatumPoint> points,
                                  std::optional<double> turn_deg) {
   const machine::Frames& frames = context.state().frames;
-  std::vector<Found> found;
-  for (const DatumPoint& point : points) found.push_back(found_in(frames, plane, point));
+  std::vector<DatumPoint> found;
+  for (const DatumPoint& point : points) found.push_back(basic_of(frames, plane, point));
   PresetFrame turned = frames.preset();
   if (turn_deg) turned.basic_rotation_deg = turned_rotation(frames, plane, *turn_deg);
   const bool datum_table = context.whole(303) == 0 && context.whole(305) != 0;
@@ -132,8 +125,9 @@ CycleResult<void> correct_preset(const CycleContext& context, const WorkingPlane
   const Frames& frames = state.frames;
   const PresetFrame before = frames.preset();
   if (moved) {
-    Found found = found_in(frames, plane, {.point = moved->measured, .axes = {true, true, true}});
-    const Vec3 nominal = found_in(frames, plane, {.point = moved->nominal}).point;
+    DatumPoint found =
+        basic_of(frames, plane, {.point = moved->measured, .axes = {true, true, true}});
+    const Vec3 nominal = basic_of(frames, plane, {.point = moved->nominal}).point;
     found.datum = axes_of(frames, before).transposed() * (nominal - before.origin);
     move_zero(turned, axes_of(frames, turned), found);
   }
@@ -146,7 +140,7 @@ CycleResult<void> correct_preset(const CycleContext& context, const WorkingPlane
   return replace_active_preset(context.machine, turned);
 }
 
-DatumPoint plane_datum(const Arguments& arguments, Point2 point) {
+DatumPoint plane_datum(const Arguments& arguments, const Vec3& point) {
   return {.point = {point.x, point.y, arguments.number(261)},
           .axes = {true, true, false},
           .datum = {arguments.number(331), arguments.number(332), 0}};

@@ -61,7 +61,7 @@ inline constexpr std::array kPlaneDatum =
 }  // namespace parameter
 
 /// Sets the datum of the working plane to Q331, Q332 at a point; see finish_preset.
-DatumPoint plane_datum(const Arguments& arguments, Point2 point);
+DatumPoint plane_datum(const Arguments& arguments, const Vec3& point);
 
 /// The end of preset cycles: with Q381 = 1 a touch in the probe axis at Q382, Q383, Q384 for the
 /// datum Q333, then the transfer of all by Q303 and Q305.

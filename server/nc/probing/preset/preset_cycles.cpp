@@ -46,8 +46,9 @@ constexpr std::array k410Parameters =
          kSetUpClearance, kClearanceHeight, kMoveToClearance, kPlaneDatum);
 
 CycleResult<void> rectangle_datum(const CycleContext& context, ProbingMotion& motion, Side side) {
-  const auto rectangle = TRY(probe_rectangle(context, motion, side, point_of(context, 321, 322),
-                                             {context.number(323), context.number(324)}));
+  const auto rectangle =
+      TRY(probe_rectangle(context, motion, side, place_of(context, 321, 322, 261),
+                          {context.number(323), context.number(324)}));
   set_lengths(context.host, 151, {rectangle.centre.x, rectangle.centre.y});
   set_lengths(context.host, 154, {rectangle.length[0], rectangle.length[1]});
   return finish_preset(context, motion, plane_datum(context, rectangle.centre));
@@ -58,7 +59,7 @@ constexpr std::array k412Parameters =
          kTouches, kTraverse);
 
 CycleResult<void> circle_datum(const CycleContext& context, ProbingMotion& motion, Side side) {
-  const auto probed = TRY(probe_circle(context, motion, side, point_of(context, 321, 322)));
+  const auto probed = TRY(probe_circle(context, motion, side, place_of(context, 321, 322, 261)));
   publish_circle(context, side, probed);
   return finish_preset(context, motion, plane_datum(context, probed.circle.centre));
 }
@@ -159,8 +160,9 @@ CycleResult<void> bolt_circle(const CycleContext& context, ProbingMotion& motion
 }
 
 CycleResult<void> four_holes(const CycleContext& context, ProbingMotion& motion) {
-  std::vector<Point2> nominal;
-  for (const int main : {268, 270, 316, 318}) nominal.push_back(point_of(context, main, main + 1));
+  std::vector<Vec3> nominal;
+  for (const int main : {268, 270, 316, 318})
+    nominal.push_back(place_of(context, main, main + 1, 261));
   const auto centre = TRY(probe_hole_centres(context, motion, nominal));
   const auto point = TRY(intersection(centre[0], centre[2], centre[1], centre[3]));
   set_lengths(context.host, 151, {point.x, point.y});

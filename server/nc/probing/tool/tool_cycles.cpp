@@ -17,24 +17,23 @@ struct Width {
   double half;    ///< of the way of the tool's axis between them
 };
 
-CycleResult<Width> touch_across(ToolProbing& probing, Point2 centre, double height,
-                                Point2 outwards) {
+CycleResult<Width> touch_across(ToolProbing& probing, const Vec3& centre, double height,
+                                const Vec3& outwards) {
   const auto near = TRY(probing.touch_side(centre, height, outwards, Spindle::Stands));
-  const auto far =
-      TRY(probing.touch_side(centre, height, {-outwards.x, -outwards.y}, Spindle::Stands));
+  const auto far = TRY(probing.touch_side(centre, height, -outwards, Spindle::Stands));
   return Width{(near - far) / 2, (near + far) / 2};
 }
 
 /// Touches the top, then X, Y and X again. The first pair meets a disc along a chord, because the
 /// centre in Y is still unknown. It gives the centre in X, but not the width.
-CycleResult<machine::ToolTouchProbe> touch_plate(ToolProbing& probing, Point2 near,
+CycleResult<machine::ToolTouchProbe> touch_plate(ToolProbing& probing, const Vec3& near,
                                                  double tool_radius) {
   const auto top = TRY(probing.touch_top(near, Spindle::Stands));
-  Point2 centre = near;
+  Vec3 centre = near;
   double half = 0;
-  for (const Point2 outwards : {Point2{1, 0}, Point2{0, 1}, Point2{1, 0}}) {
+  for (const Vec3& outwards : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{1, 0, 0}}) {
     const auto width = TRY(touch_across(probing, centre, top - tt_parameters::kDepth, outwards));
-    centre = {centre.x + outwards.x * width.middle, centre.y + outwards.y * width.middle};
+    centre = centre + outwards * width.middle;
     half = width.half;
   }
   TRY(probing.retract());
@@ -45,7 +44,7 @@ CycleResult<machine::ToolTouchProbe> touch_plate(ToolProbing& probing, Point2 ne
 }
 
 CycleResult<void> calibrate(const CycleContext& context, CycleResult<ToolProbing> probing,
-                            Point2 near) {
+                            const Vec3& near) {
   if (!probing) return probing.error();
   const machine::MachineState& state = context.state();
   auto found = TRY(touch_plate(*probing, near, state.tool_radius()));
@@ -56,17 +55,16 @@ CycleResult<void> calibrate(const CycleContext& context, CycleResult<ToolProbing
 }
 
 CycleResult<void> calibrate_at_known_place(const CycleContext& context) {
-  const machine::Vec3& centre = context.state().tt.centre;
   return calibrate(context,
                    ToolProbing::begin(context, context.number(ParameterId::WordHeight, 260)),
-                   {centre.x, centre.y});
+                   context.state().tt.centre);
 }
 
 CycleResult<void> calibrate_here(const CycleContext& context) {
   if (context.whole(536) == 0)
     context.host.stop("position the calibrating tool over the centre of the tool touch probe");
-  const machine::Vec3 tip = context.machine.position(machine::CoordinateSystem::Machine).linear;
-  return calibrate(context, ToolProbing::begin_here(context), {tip.x, tip.y});
+  return calibrate(context, ToolProbing::begin_here(context),
+                   context.machine.position(machine::CoordinateSystem::Machine).linear);
 }
 
 constexpr std::string_view kCalibrationSimulated =
@@ -137,7 +135,7 @@ CycleResult<double> measure_length(const CycleContext& context, ToolProbing& pro
       TRY(touches_of(context, tool.r_offset != 0 || state.tool_radius() > tt.radius));
   double longest = 0;
   for (const Spindle spindle : touches) {
-    const auto tip = TRY(probing.touch_top({tt.centre.x + tool.r_offset, tt.centre.y}, spindle));
+    const auto tip = TRY(probing.touch_top(tt.centre + Vec3{tool.r_offset, 0, 0}, spindle));
     longest = std::max(longest, state.tool_length() + tip - tt.centre.z);
   }
   return longest;
@@ -150,7 +148,7 @@ CycleResult<double> measure_radius(const CycleContext& context, ToolProbing& pro
   const double height = tt.centre.z - tt_parameters::kDepth - state.active_tool()->l_offset;
   double largest = 0;
   for (const Spindle spindle : touches) {
-    const auto axis = TRY(probing.touch_side({tt.centre.x, tt.centre.y}, height, {1, 0}, spindle));
+    const auto axis = TRY(probing.touch_side(tt.centre, height, {1, 0, 0}, spindle));
     largest = std::max(largest, axis - tt.radius);
   }
   return largest;
@@ -222,8 +220,9 @@ CycleResult<Tip> touch_tip(ToolProbing& probing, const machine::MachineState& st
   const int direction = lathe.tip_x() == 0 ? 1 : lathe.tip_x();
   const double beside = tt.centre.x - known.xl - lathe.beyond_tip(direction);
   const double height = tt.centre.z - tt_parameters::kDepth + lathe.tip_z() * lathe.rs;
-  const auto axis = TRY(probing.touch_side({beside, tt.centre.y}, height + zl - known.zl,
-                                           {static_cast<double>(-direction), 0}, Spindle::Stands));
+  const auto axis =
+      TRY(probing.touch_side({beside, tt.centre.y}, height + zl - known.zl,
+                             {static_cast<double>(-direction), 0, 0}, Spindle::Stands));
   return Tip{zl, known.xl + direction * (axis - tt.radius)};
 }
 

@@ -118,7 +118,7 @@ CycleResult<ToolProbing> ToolProbing::begin_here(const CycleContext& context) {
   return ToolProbing(context, height, height);
 }
 
-CycleResult<double> ToolProbing::touch_top(Point2 at, Spindle spindle) {
+CycleResult<double> ToolProbing::touch_top(const Vec3& at, Spindle spindle) {
   TRY(retract());
   TRY(move_over(at));
   TRY(move_to_height(start_height_));
@@ -126,15 +126,15 @@ CycleResult<double> ToolProbing::touch_top(Point2 at, Spindle spindle) {
   return tip.z;
 }
 
-CycleResult<double> ToolProbing::touch_side(Point2 centre, double tip_height, Point2 outwards,
-                                            Spindle spindle) {
+CycleResult<double> ToolProbing::touch_side(const Vec3& centre, double tip_height,
+                                            const Vec3& outwards, Spindle spindle) {
   const MachineState& state = machine_.state();
   const double away = state.tt.radius + state.tool_radius() + tt_parameters::kSafetyDistance;
   TRY(retract());
-  TRY(move_over({centre.x + outwards.x * away, centre.y + outwards.y * away}));
+  TRY(move_over(centre + outwards * away));
   TRY(move_to_height(tip_height));
-  const auto tip = TRY(probe({-outwards.x, -outwards.y, 0}, spindle));
-  return (tip.x - centre.x) * outwards.x + (tip.y - centre.y) * outwards.y;
+  const auto tip = TRY(probe(-outwards, spindle));
+  return dot(tip - centre, outwards);
 }
 
 CycleResult<void> ToolProbing::retract() { return move_to_height(clearance_height_); }
@@ -145,7 +145,7 @@ CycleResult<void> ToolProbing::move_to_height(double height) {
   return move(along);
 }
 
-CycleResult<void> ToolProbing::move_over(Point2 at) {
+CycleResult<void> ToolProbing::move_over(const Vec3& at) {
   AxisWords across;
   across[Axis::X] = at.x;
   across[Axis::Y] = at.y;
@@ -162,7 +162,6 @@ CycleResult<Vec3> ToolProbing::probe(const Vec3& direction, Spindle spindle) {
                                        .distance = tt_parameters::kLongestProbing,
                                        .feed = probing_feed(state.tool_radius(), spindle),
                                        .system = CoordinateSystem::Machine,
-                                       .retract = std::nullopt,
                                        .retract_feed = Feed::rapid()});
   if (contact) return contact->tip_machine;
   if (contact.error().kind != FaultKind::NoContact) return contact.error();

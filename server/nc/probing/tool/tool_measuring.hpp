@@ -46,8 +46,8 @@ CycleResult<void> write_measured(const CycleContext& context, ToolMode mode, mac
 enum class Spindle : std::uint8_t { Stands, Turns };
 
 /// Moves the tool in the spindle to the tool touch probe and touches it, in machine coordinates of
-/// the tool tip. The spindle axis is Z. Not thread-safe; lives within one execution; after an error
-/// the machine stops where it is.
+/// the tool tip. The spindle axis is Z; of a point to be over or beside, X and Y count. Not
+/// thread-safe; lives within one execution; after an error the machine stops where it is.
 class ToolProbing {
  public:
   /// @param clearance_height Q260, in the input system; raised to stay clear of the contact plate.
@@ -62,15 +62,15 @@ class ToolProbing {
 
   /// Touches the upper side with the tip over a point, and comes back. @return the tip's height.
   /// @errors 1014 nothing within the longest probing.
-  CycleResult<double> touch_top(Point2 at, Spindle spindle);
+  CycleResult<double> touch_top(const Vec3& at, Spindle spindle);
   /// Touches a side from outside, coming over the clearance height, the tip at a height below the
   /// top. @param outwards a unit vector from the centre to the side. @return the distance of the
   /// tip from the centre, along it.
-  CycleResult<double> touch_side(Point2 centre, double tip_height, Point2 outwards,
+  CycleResult<double> touch_side(const Vec3& centre, double tip_height, const Vec3& outwards,
                                  Spindle spindle);
   /// Up to the clearance height.
   CycleResult<void> retract();
-  CycleResult<void> move_over(Point2 at);
+  CycleResult<void> move_over(const Vec3& at);
 
  private:
   ToolProbing(const CycleContext& context, double clearance_height, double start_height)

@@ -44,7 +44,7 @@ std::vector<Touch> circle_touches(const CirclePlan& plan) {
   const double outwards = plan.side == Side::Inside ? 1 : -1;
   const double pitch_radius = plan.diameter / 2 - outwards * plan.start_distance;
   const bool from_centre = pitch_radius <= 0;
-  const Vec3 centre{plan.centre.x, plan.centre.y, plan.height};
+  const Vec3& centre = plan.centre;
   const Transit between = from_centre          ? Transit::Straight
                           : plan.via_clearance ? Transit::ClearanceHeight
                           : plan.on_arc        ? Transit::Arc
@@ -62,14 +62,7 @@ std::vector<Touch> circle_touches(const CirclePlan& plan) {
   return touches;
 }
 
-std::vector<Point2> ball_centres(std::span<const Contact> contacts) {
-  std::vector<Point2> centres;
-  for (const Contact& contact : contacts)
-    centres.push_back({contact.ball_centre.x, contact.ball_centre.y});
-  return centres;
-}
-
-std::vector<Vec3> centres_in_space(std::span<const Contact> contacts) {
+std::vector<Vec3> ball_centres(std::span<const Contact> contacts) {
   std::vector<Vec3> centres;
   for (const Contact& contact : contacts) centres.push_back(contact.ball_centre);
   return centres;
@@ -82,7 +75,7 @@ CycleResult<Circle> circle_through(std::span<const Contact> contacts, Side side,
   return circle;
 }
 
-Form circle_form(std::span<const Point2> centres, const Circle& circle, double start_angle) {
+Form circle_form(std::span<const Vec3> centres, const Circle& circle, double start_angle) {
   const std::size_t points = centres.size();
   Form form{
       .diameter_factor = circle.diameter_factor, .points = points, .start_angle_deg = start_angle};
@@ -92,7 +85,7 @@ Form circle_form(std::span<const Point2> centres, const Circle& circle, double s
     return form;
   }
   form.residual_mm = circle.residual;
-  const auto distance = [&](const Point2& point) {
+  const auto distance = [&](const Vec3& point) {
     return std::hypot(point.x - circle.centre.x, point.y - circle.centre.y);
   };
   const auto [nearest, farthest] = std::ranges::minmax(centres | std::views::transform(distance));
@@ -105,7 +98,7 @@ Form circle_form(std::span<const Point2> centres, const Circle& circle, double s
 }
 
 CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotion& motion,
-                                       Side side, Point2 centre) {
+                                       Side side, const Vec3& centre) {
   const double step = context.number(247);
   if (step == 0) return nc_error(1066);
   if (std::abs(step) < 5) return nc_error(1067);
@@ -115,24 +108,23 @@ CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotio
                                        .start_angle = context.number(325),
                                        .step = step,
                                        .points = static_cast<int>(context.number_or(423, 4)),
-                                       .height = context.number(261),
                                        .start_distance = motion.start_distance(),
                                        .via_clearance = context.whole(301) == 1,
                                        .on_arc = context.number_or(365, 1) == 1});
-  const PlannedPlace place{side, {centre.x, centre.y, context.number(261)}, context.number(262)};
-  const auto contacts = TRY(touch_part(context, motion, touches, place));
+  const auto contacts =
+      TRY(touch_part(context, motion, touches, {side, centre, context.number(262)}));
   const auto circle = TRY(circle_through(contacts, side, motion.ball_radius()));
   ProbedCircle probed{circle, circle_form(ball_centres(contacts), circle, context.number(325))};
   probed.form.touch_uncertainty_um = motion.touch_uncertainty_um();
   return probed;
 }
 
-CycleResult<std::vector<Point2>> probe_hole_centres(const CycleContext& context,
-                                                    ProbingMotion& motion,
-                                                    std::span<const Point2> nominal) {
-  std::vector<Point2> centres;
-  for (const Point2& point : nominal) {
-    const auto touches = circle_touches({.centre = point, .height = context.number(261)});
+CycleResult<std::vector<Vec3>> probe_hole_centres(const CycleContext& context,
+                                                  ProbingMotion& motion,
+                                                  std::span<const Vec3> nominal) {
+  std::vector<Vec3> centres;
+  for (const Vec3& point : nominal) {
+    const auto touches = circle_touches({.centre = point});
     const auto contacts = TRY(motion.touch_all(touches, context.number(260)));
     const auto circle = TRY(circle_through(contacts, Side::Inside, motion.ball_radius()));
     centres.push_back(circle.centre);
@@ -142,10 +134,10 @@ CycleResult<std::vector<Point2>> probe_hole_centres(const CycleContext& context,
 
 CycleResult<ProbedCircle> probe_bolt_circle(const CycleContext& context, ProbingMotion& motion) {
   const double radius = context.number(262) / 2;
-  std::vector<Point2> nominal;
+  std::vector<Vec3> nominal;
   for (const int angle : {291, 292, 293}) {
     const auto [sine, cosine] = machine::sine_cosine(context.number(angle));
-    nominal.push_back({context.number(273) + radius * cosine, context.number(274) + radius * sine});
+    nominal.push_back(place_of(context, 273, 274, 261) + Vec3{cosine, sine, 0} * radius);
   }
   const auto holes = TRY(probe_hole_centres(context, motion, nominal));
   const auto circle = TRY(fit_circle(holes));
@@ -163,8 +155,8 @@ std::array<Touch, 2> width_touches(Side side, const Vec3& centre, std::size_t ax
 }
 
 CycleResult<Rectangle> probe_rectangle(const CycleContext& context, ProbingMotion& motion,
-                                       Side side, Point2 at, const std::array<double, 2>& length) {
-  const Vec3 centre{at.x, at.y, context.number(261)};
+                                       Side side, const Vec3& centre,
+                                       const std::array<double, 2>& length) {
   const double distance = motion.start_distance();
   const auto main = width_touches(side, centre, 0, length[0], distance);
   const auto secondary = width_touches(side, centre, 1, length[1], distance);
@@ -182,7 +174,7 @@ CycleResult<Rectangle> probe_rectangle(const CycleContext& context, ProbingMotio
   const double x2 = contacts[2].surface.x;
   const double y1 = contacts[1].surface.y;
   const double y2 = contacts[3].surface.y;
-  return Rectangle{{(x1 + x2) / 2, (y1 + y2) / 2}, {x1 - x2, y1 - y2}};
+  return Rectangle{{(x1 + x2) / 2, (y1 + y2) / 2, 0}, {x1 - x2, y1 - y2}};
 }
 
 CycleFault with_part(CycleFault fault, const CycleContext& context, const WorkingPlane& plane,

@@ -73,10 +73,10 @@ double diameter_factor(const Eigen::MatrixXd& jacobian) {
 
 }  // namespace
 
-CycleResult<Circle> fit_circle(std::span<const Point2> points) {
+CycleResult<Circle> fit_circle(std::span<const Vec3> points) {
   if (points.size() < 3) return nc_error(1081, "a circle needs three points");
   std::vector<Vec3> flat;
-  for (const Point2& p : points) flat.push_back({p.x, p.y, 0});
+  for (const Vec3& p : points) flat.push_back({p.x, p.y, 0});
   const Centred all(flat);
   auto circle = algebraic_fit(all);
   if (!circle) return nc_error(1081, "the touched points lie on a straight line");

@@ -5,13 +5,8 @@
 
 namespace fitgauge::probing {
 
-struct Point2 {
-  double x = 0;
-  double y = 0;
-};
-
 struct Circle {
-  Point2 centre;
+  machine::Vec3 centre;  ///< at height 0
   double radius = 0;
   double residual = 0;  ///< the largest distance of a point from the circle
   /// Standard deviation of the diameter divided by that of a point along its radius: 1 with four
@@ -19,10 +14,10 @@ struct Circle {
   double diameter_factor = 1;
 };
 
-/// The circle through three points, or with the smallest sum of squared distances to four and more
-/// (orthogonal distance regression by Gauss-Newton, not the algebraic fit).
+/// The circle through three points seen along z, or with the smallest sum of squared distances to
+/// four and more (orthogonal distance regression by Gauss-Newton, not the algebraic fit).
 /// @errors 1081 fewer than three points, or all on one line.
-CycleResult<Circle> fit_circle(std::span<const Point2> points);
+CycleResult<Circle> fit_circle(std::span<const machine::Vec3> points);
 
 struct FittedSphere {
   machine::Vec3 centre;

@@ -24,21 +24,15 @@ CycleResult<Vec3> touch(const CycleContext& context, ProbingMotion& motion, cons
   return contacts.front().surface;
 }
 
-struct Edge {
-  Point2 first;
-  Point2 second;
-};
-
-/// Returns the edge on the touched side of the line through two ball centres.
-Edge edge_of(const Contact& first, const Contact& second, const Vec3& touched, double radius) {
+/// Returns two points of the edge on the touched side of the line through two ball centres.
+std::array<Vec3, 2> edge_of(const Contact& first, const Contact& second, const Vec3& touched,
+                            double radius) {
   const Vec3 along = second.ball_centre - first.ball_centre;
   Vec3 normal{-along.y, along.x, 0};
   const double length = norm(normal);
   if (length == 0) return {};
   normal = normal * ((dot(normal, touched) > 0 ? radius : -radius) / length);
-  const Vec3 a = first.ball_centre + normal;
-  const Vec3 b = second.ball_centre + normal;
-  return {{a.x, a.y}, {b.x, b.y}};
+  return {first.ball_centre + normal, second.ball_centre + normal};
 }
 
 }  // namespace
@@ -118,8 +112,6 @@ CycleResult<Contact> ProbingMotion::probe(const Vec3& direction) {
   auto contact = context_.machine.probe({.direction = plane_.to_input(direction),
                                          .distance = probe_.data.distance,
                                          .feed = probe_.data.feed,
-                                         .system = CoordinateSystem::Input,
-                                         .retract = std::nullopt,
                                          .retract_feed = positioning_feed()});
   if (!contact && contact.error().kind == machine::FaultKind::NoContact) {
     return make_fault(
@@ -238,21 +230,21 @@ CycleResult<Vec3> touch_down(const CycleContext& context, ProbingMotion& motion,
   return touch(context, motion, nominal, {0, 0, -1});
 }
 
-CycleResult<Point2> intersection(Point2 a1, Point2 a2, Point2 b1, Point2 b2) {
-  const Point2 a{a2.x - a1.x, a2.y - a1.y};
-  const Point2 b{b2.x - b1.x, b2.y - b1.y};
+CycleResult<Vec3> intersection(const Vec3& a1, const Vec3& a2, const Vec3& b1, const Vec3& b2) {
+  const Vec3 a = a2 - a1;
+  const Vec3 b = b2 - b1;
   const double across = a.x * b.y - a.y * b.x;
   if (std::abs(across) <= tolerance::kParallelEdges * std::hypot(a.x, a.y) * std::hypot(b.x, b.y))
     return nc_error(1081, "the measured lines do not meet");
   const double part = ((b1.x - a1.x) * b.y - (b1.y - a1.y) * b.x) / across;
-  return Point2{a1.x + part * a.x, a1.y + part * a.y};
+  return a1 + a * part;
 }
 
 CycleResult<Corner> corner_of(std::span<const Contact> contacts, std::span<const Touch> touches,
                               double ball_radius) {
-  const Edge main = edge_of(contacts[0], contacts[1], touches[0].direction, ball_radius);
-  const Edge secondary = edge_of(contacts[2], contacts[3], touches[2].direction, ball_radius);
-  const auto point = TRY(intersection(main.first, main.second, secondary.first, secondary.second));
+  const auto main = edge_of(contacts[0], contacts[1], touches[0].direction, ball_radius);
+  const auto secondary = edge_of(contacts[2], contacts[3], touches[2].direction, ball_radius);
+  const auto point = TRY(intersection(main[0], main[1], secondary[0], secondary[1]));
   return Corner{point, contacts[1].ball_centre - contacts[0].ball_centre};
 }
 

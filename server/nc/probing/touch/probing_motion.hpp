@@ -7,11 +7,7 @@ namespace fitgauge::probing {
 
 using machine::Vec3;
 
-/// A point of the working plane, by the parameters of its coordinates.
-inline Point2 point_of(const Arguments& arguments, int main, int secondary) {
-  return {arguments.number(main), arguments.number(secondary)};
-}
-/// A point in plane coordinates, likewise.
+/// A point in plane coordinates, by the parameters of these.
 inline Vec3 place_of(const Arguments& arguments, int main, int secondary, int probe) {
   return {arguments.number(main), arguments.number(secondary), arguments.number(probe)};
 }
@@ -26,10 +22,10 @@ struct WorkingPlane {
 
   /// Tool axis Z: XY, X: YZ, Y: ZX.
   static constexpr WorkingPlane across(machine::Axis tool_axis) {
-    using machine::Axis;
-    if (tool_axis == Axis::X) return {Axis::Y, Axis::Z, Axis::X};
-    if (tool_axis == Axis::Y) return {Axis::Z, Axis::X, Axis::Y};
-    return {Axis::X, Axis::Y, Axis::Z};
+    const auto next = [](machine::Axis axis) {
+      return static_cast<machine::Axis>((index(axis) + 1) % 3);
+    };
+    return {next(tool_axis), next(next(tool_axis)), tool_axis};
   }
 
   constexpr machine::Vec3 from_input(const machine::Vec3& p) const {
@@ -41,11 +37,6 @@ struct WorkingPlane {
     input[index(secondary)] = p.y;
     input[index(probe)] = p.z;
     return input;
-  }
-
-  /// The axis a block names by Q272: 1 main, 2 secondary, 3 probe axis.
-  constexpr machine::Axis axis(int q272) const {
-    return q272 == 1 ? main : q272 == 2 ? secondary : probe;
   }
 };
 
@@ -134,16 +125,18 @@ void publish_touch(const machine::MachineState& state, CycleHost& host,
                    const machine::ContactPoint& contact);
 
 enum class Side : std::uint8_t { Inside, Outside };
+constexpr ValueRole size_role(Side side) {
+  return side == Side::Inside ? ValueRole::HoleSize : ValueRole::ShaftSize;
+}
 
 /// Plan for touching a circle in the plane and its coordinates; degrees from the main axis.
 struct CirclePlan {
   Side side = Side::Inside;
-  Point2 centre;
+  Vec3 centre;  ///< at the height of the ball centre (Q261)
   double diameter = 0;
   double start_angle = 0;
   double step = 90;
   int points = 4;
-  double height = 0;           ///< of the ball centre (Q261)
   double start_distance = 0;   ///< ball centre to nominal contact
   bool via_clearance = false;  ///< Q301
   bool on_arc = true;          ///< Q365; a chord between the points would cut a stud
@@ -153,8 +146,7 @@ struct CirclePlan {
 /// without moves between the points.
 std::vector<Touch> circle_touches(const CirclePlan& plan);
 
-std::vector<Point2> ball_centres(std::span<const Contact> contacts);
-std::vector<Vec3> centres_in_space(std::span<const Contact> contacts);
+std::vector<Vec3> ball_centres(std::span<const Contact> contacts);
 
 /// The circle through the ball centres, widened (inside) or narrowed (outside) by the ball's
 /// radius: compensating each touch along its probing direction would be wrong for a hole off its
@@ -164,7 +156,7 @@ CycleResult<Circle> circle_through(std::span<const Contact> contacts, Side side,
                                    double ball_radius);
 
 /// Returns the form by the points, and the certainty of the circle's diameter.
-Form circle_form(std::span<const Point2> points, const Circle& circle, double start_angle);
+Form circle_form(std::span<const Vec3> points, const Circle& circle, double start_angle);
 
 struct ProbedCircle {
   Circle circle;  ///< of the surface
@@ -175,21 +167,21 @@ struct ProbedCircle {
 /// Q247, Q261, Q320, Q260, Q301, Q423, Q365.
 /// @errors 1066, 1067 for a step angle of less than 5 degrees; 1081.
 CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotion& motion,
-                                       Side side, Point2 centre);
+                                       Side side, const Vec3& centre);
 
-/// Returns the centres of holes near the given points. It touches each hole four times from there,
-/// along the axes of the plane at measuring height (Q261), and moves between holes at the clearance
-/// height (Q260).
+/// Returns the centres of holes near the given points, which are at measuring height. It touches
+/// each hole four times from there, along the axes of the plane, and moves between holes at the
+/// clearance height (Q260).
 /// @errors 1014 a hole is wider than DIST reaches, 1081.
-CycleResult<std::vector<Point2>> probe_hole_centres(const CycleContext& context,
-                                                    ProbingMotion& motion,
-                                                    std::span<const Point2> nominal);
+CycleResult<std::vector<Vec3>> probe_hole_centres(const CycleContext& context,
+                                                  ProbingMotion& motion,
+                                                  std::span<const Vec3> nominal);
 
 /// The circle through three holes around Q273 and Q274, by Q262, Q291 to Q293, Q261 and Q260.
 CycleResult<ProbedCircle> probe_bolt_circle(const CycleContext& context, ProbingMotion& motion);
 
 struct Rectangle {
-  Point2 centre;
+  Vec3 centre;
   std::array<double, 2> length{};  ///< along main and secondary axis
 };
 
@@ -198,7 +190,7 @@ struct Rectangle {
 /// paraxially at measuring height or over the clearance height. A pocket too small for the start
 /// distance is touched from its centre.
 CycleResult<Rectangle> probe_rectangle(const CycleContext& context, ProbingMotion& motion,
-                                       Side side, Point2 centre,
+                                       Side side, const Vec3& centre,
                                        const std::array<double, 2>& length);
 
 /// The two touches along one axis (0 main, 1 secondary) of a slot, pocket, ridge or stud of the
@@ -274,7 +266,7 @@ CycleResult<Vec3> touch_down(const CycleContext& context, ProbingMotion& motion,
                              const Vec3& nominal);
 
 struct Corner {
-  Point2 point;    ///< intersection of the two edges
+  Vec3 point;      ///< intersection of the two edges
   Vec3 direction;  ///< of the first edge
 };
 
@@ -285,7 +277,7 @@ struct Corner {
 CycleResult<Corner> corner_of(std::span<const Contact> contacts, std::span<const Touch> touches,
                               double ball_radius);
 
-/// Intersection of the lines a1-a2 and b1-b2. @errors 1081 they are parallel.
-CycleResult<Point2> intersection(Point2 a1, Point2 a2, Point2 b1, Point2 b2);
+/// Intersection of the lines a1-a2 and b1-b2 seen along z. @errors 1081 they are parallel.
+CycleResult<Vec3> intersection(const Vec3& a1, const Vec3& a2, const Vec3& b1, const Vec3& b2);
 
 }  // namespace fitgauge::probing

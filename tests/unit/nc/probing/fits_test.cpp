@@ -5,7 +5,7 @@
 namespace fitgauge::probing {
 namespace {
 
-Circle fit(std::span<const Point2> points) {
+Circle fit(std::span<const machine::Vec3> points) {
   const auto circle = fit_circle(points);
   REQUIRE(circle.has_value());
   return *circle;
@@ -15,7 +15,7 @@ Circle fit(std::span<const Point2> points) {
 
 TEST_CASE("four and more points: the geometric fit of a published example") {
   // Gander, Golub and Strebel, Least-squares fitting of circles and ellipses (1994), section 5.
-  constexpr std::array<Point2, 6> kPoints{{{1, 7}, {2, 6}, {5, 8}, {7, 7}, {9, 5}, {3, 7}}};
+  constexpr std::array<machine::Vec3, 6> kPoints{{{1, 7}, {2, 6}, {5, 8}, {7, 7}, {9, 5}, {3, 7}}};
   const Circle circle = fit(kPoints);
   CHECK(std::abs(circle.centre.x - 4.7397824109) < 1e-10);
   CHECK(std::abs(circle.centre.y - 2.9835326993) < 1e-10);
@@ -29,7 +29,7 @@ TEST_CASE("points on a circle give it back, also on a short arc far from the ori
       if (step_deg * count > 360) continue;
       CAPTURE(step_deg);
       CAPTURE(count);
-      std::vector<Point2> points;
+      std::vector<machine::Vec3> points;
       for (int i = 0; i < count; ++i) {
         const double angle = (17 + step_deg * i) * std::acos(-1.0) / 180;
         points.push_back({400 + 12.5 * std::cos(angle), -300 + 12.5 * std::sin(angle)});
@@ -46,9 +46,9 @@ TEST_CASE("points on a circle give it back, also on a short arc far from the ori
 }
 
 TEST_CASE("points that make no circle are contradictory") {
-  const std::vector<Point2> two{{0, 0}, {1, 0}};
-  const std::vector<Point2> line{{0, 0}, {1, 1}, {2, 2}, {5, 5}};
-  const std::vector<Point2> same{{3, 3}, {3, 3}, {3, 3}};
+  const std::vector<machine::Vec3> two{{0, 0}, {1, 0}};
+  const std::vector<machine::Vec3> line{{0, 0}, {1, 1}, {2, 2}, {5, 5}};
+  const std::vector<machine::Vec3> same{{3, 3}, {3, 3}, {3, 3}};
   for (const auto& points : {two, line, same}) {
     const auto circle = fit_circle(points);
     REQUIRE(circle.has_error());
@@ -58,7 +58,7 @@ TEST_CASE("points that make no circle are contradictory") {
 
 TEST_CASE("what the scatter of touches makes of a diameter") {
   const auto factor = [](int points, double step_deg) {
-    std::vector<Point2> touched;
+    std::vector<machine::Vec3> touched;
     for (int k = 0; k < points; ++k) {
       const double angle = k * step_deg * std::acos(-1.0) / 180;
       touched.push_back({100 + 12 * std::cos(angle), 12 * std::sin(angle)});
