@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/small_set.hpp"
+
 /// Expressions as values: leaves are stored in place, inner nodes and texts in pools of the
 /// Program, so that an expression needs no allocation and can be copied freely.
 namespace fitgauge::klartext {
@@ -42,6 +44,9 @@ struct QRef {
   bool is_string() const { return space == QSpace::Qs; }
   friend bool operator==(QRef, QRef) = default;
 };
+
+/// Maximum number of characters (code points) of a QS.
+inline constexpr std::size_t kLongestString = 255;
 
 /// The index of a Node in the Program's pool.
 struct NodeIndex {
@@ -160,37 +165,8 @@ struct Word {
 
 static_assert(sizeof(Word) == 16, "a long program has three words a block");
 
-/// A set of letters: the allowed words of a block.
-class LetterSet {
- public:
-  constexpr LetterSet() = default;
-  template <class... Letters>
-  constexpr explicit LetterSet(Letters... letters) {
-    (insert(letters), ...);
-  }
-
-  constexpr void insert(Letter letter) { bits_[index(letter)] |= bit(letter); }
-  constexpr bool contains(Letter letter) const { return (bits_[index(letter)] & bit(letter)) != 0; }
-  constexpr void erase(Letter letter) { bits_[index(letter)] &= ~bit(letter); }
-  friend constexpr LetterSet operator&(LetterSet a, LetterSet b) {
-    a.bits_[0] &= b.bits_[0];
-    a.bits_[1] &= b.bits_[1];
-    return a;
-  }
-  friend constexpr LetterSet operator|(LetterSet a, LetterSet b) {
-    a.bits_[0] |= b.bits_[0];
-    a.bits_[1] |= b.bits_[1];
-    return a;
-  }
-
- private:
-  static constexpr unsigned index(Letter letter) { return static_cast<unsigned>(letter) / 64; }
-  static constexpr std::uint64_t bit(Letter letter) {
-    return std::uint64_t{1} << (static_cast<unsigned>(letter) % 64);
-  }
-
-  std::uint64_t bits_[2] = {0, 0};
-};
+/// The allowed words of a block.
+using LetterSet = SmallSet<Letter>;
 
 /// The word of each letter from `A`; Letter::Value if there is none.
 extern const std::array<Letter, 26> kSingleLetters;

@@ -13,6 +13,7 @@ inline constexpr std::string_view kPaths[] = {
 #undef FITGAUGE_PATH
 };
 
+inline constexpr std::string_view kBlankKinds[] = {"0.1", "0.2", "CYLINDER", "ROTATION", "FILE"};
 inline constexpr std::string_view kPlaneKinds[] = {"SPATIAL", "PROJECTED", "EULER", "VECTOR",
                                                    "POINTS",  "RELATIV",   "AXIAL", "RESET"};
 inline constexpr std::string_view kPlanePositionings[] = {"", "TURN", "MOVE", "STAY"};
@@ -35,9 +36,6 @@ std::optional<Enumeration> accept_name(Lexer& in, const std::string_view (&names
 constexpr std::size_t place_of(Operator op, Operator first) {
   return static_cast<std::size_t>(op) - static_cast<std::size_t>(first);
 }
-
-/// The longest text of a QS parameter.
-inline constexpr std::size_t kLongestString = 255;
 
 /// Functions of one number in a formula, from Operator::Sq on.
 inline constexpr std::string_view kFunctions[] = {"SQ",   "SQRT", "SIN",  "COS", "TAN", "ASIN",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/small_set.hpp"
 #include "nc/machine/fault.hpp"
 
 namespace fitgauge::probing {
@@ -25,30 +26,7 @@ CycleFault nc_error(int number, fmt::format_string<First, Rest...> detail, First
 CycleFault tolerance_stop(int number);
 
 /// A set of the control's error numbers, 1000 to 1127.
-class ErrorSet {
- public:
-  static constexpr int kFirst = 1000;
-  static constexpr int kLast = 1127;
-
-  constexpr ErrorSet() = default;
-  constexpr ErrorSet(std::initializer_list<int> numbers) {
-    for (const int number : numbers) bits_ |= Bits{1} << (number - kFirst);
-  }
-
-  constexpr bool contains(int number) const {
-    return number >= kFirst && number <= kLast && (bits_ >> (number - kFirst) & 1U) != 0;
-  }
-
-  friend constexpr ErrorSet operator|(ErrorSet a, const ErrorSet& b) {
-    a.bits_ |= b.bits_;
-    return a;
-  }
-
- private:
-  __extension__ using Bits = unsigned __int128;
-
-  Bits bits_ = 0;
-};
+using ErrorSet = SmallSet<int, 1000>;
 
 /// First words of the block that defines the cycle. One number may mean two cycles: TCH PROBE 3
 /// measures, CYCL DEF 3 mills.

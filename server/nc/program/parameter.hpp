@@ -8,12 +8,9 @@ namespace fitgauge::interpreter {
 
 // The language of the programs, whose names stand everywhere here.
 using klartext::Diagnostic, klartext::DiagnosticCode, klartext::DiagnosticEdit,
-    klartext::DiagnosticNote, klartext::Expr, klartext::Label, klartext::Letter,
-    klartext::NodeIndex, klartext::Operator, klartext::Program, klartext::QRef, klartext::QSpace,
-    klartext::Severity, klartext::Slice, klartext::Text, klartext::Word;
-
-/// Maximum number of characters (code points) of a QS.
-inline constexpr std::size_t kLongestString = 255;
+    klartext::DiagnosticNote, klartext::Expr, klartext::kLongestString, klartext::Label,
+    klartext::Letter, klartext::NodeIndex, klartext::Operator, klartext::Program, klartext::QRef,
+    klartext::QSpace, klartext::Severity, klartext::Slice, klartext::Text, klartext::Word;
 
 /// A parameter with its value: a number, or the string of a QS.
 struct ParameterValue {
