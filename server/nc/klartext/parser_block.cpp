@@ -1,3 +1,4 @@
+#include "nc/klartext/operator_names.hpp"
 #include "nc/klartext/parser.hpp"
 #include "nc/klartext/parser_rules.hpp"
 
@@ -33,36 +34,26 @@ Slice<Word> parse_rotation(BlockReader& in) {
   return in.words_since(first);
 }
 
-BlankForm parse_file_blank(BlockReader& in) {
-  BlankForm form{.kind = BlankKind::File};
-  form.file = parse_string(in);
-  const std::uint32_t first = in.word_count();
-  if (in.accept_word("TARGET")) in.add_word({.value = parse_string(in), .letter = Letter::Target});
-  form.words = in.words_since(first);
-  return form;
-}
-
 Statement parse_blank_form(BlockReader& in) {
   in.expect_word("FORM");
-  if (in.accept_word("FILE")) return parse_file_blank(in);
-  BlankForm form;
-  if (in.accept_word("0.2")) {
-    form.kind = BlankKind::Maximum;
-    form.words = parse_words(in, kAxes);
+  const auto kind = accept_name<BlankKind>(in, kBlankKinds);
+  if (!kind) return in.fail_expected("0.1");
+  BlankForm form{.kind = *kind};
+  if (*kind == BlankKind::File) {
+    form.file = parse_string(in);
+    const std::uint32_t first = in.word_count();
+    if (in.accept_word("TARGET"))
+      in.add_word({.value = parse_string(in), .letter = Letter::Target});
+    form.words = in.words_since(first);
     return form;
   }
-  if (in.accept_word("CYLINDER")) {
-    form.kind = BlankKind::Cylinder;
-  } else if (in.accept_word("ROTATION")) {
-    form.kind = BlankKind::Rotation;
-  } else {
-    in.expect_word("0.1");
+  if (*kind != BlankKind::Maximum) {
+    form.tool_axis = parse_axis_alone(in);
+    if (!form.tool_axis) in.fail_expected("the tool axis");
   }
-  form.tool_axis = parse_axis_alone(in);
-  if (!form.tool_axis) in.fail_expected("the tool axis");
-  form.words = form.kind == BlankKind::Rotation   ? parse_rotation(in)
-               : form.kind == BlankKind::Cylinder ? parse_words(in, kCylinder)
-                                                  : parse_words(in, kAxes);
+  form.words = *kind == BlankKind::Rotation   ? parse_rotation(in)
+               : *kind == BlankKind::Cylinder ? parse_words(in, kCylinder)
+                                              : parse_words(in, kAxes);
   return form;
 }
 

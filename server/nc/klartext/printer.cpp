@@ -100,7 +100,7 @@ void write_block(BlockWriter& out, const ErrorBlock& error) {
 void write_block(BlockWriter& out, const Unsupported& unsupported) { out.write(unsupported.text); }
 
 void write_block(BlockWriter& out, const BlankForm& form) {
-  out.write("BLK FORM ").write(word_of(form.kind, {"0.1", "0.2", "CYLINDER", "ROTATION", "FILE"}));
+  out.write("BLK FORM ").write(word_of(form.kind, kBlankKinds));
   if (form.tool_axis) out.write(" ").write(name_of(*form.tool_axis));
   if (!is_absent(form.file)) out.write(" ").value(form.file);
   out.words(form.words);
@@ -114,13 +114,7 @@ void write_block(BlockWriter& out, const Motion& motion) {
   out.words(motion.words, marks, kFeedsAndM);
 }
 
-void write_block(BlockWriter& out, const MFunctions& functions) {
-  std::string_view separator;
-  for (const Word& word : out.program().view(functions.words)) {
-    out.write(separator).word(word);
-    separator = " ";
-  }
-}
+void write_block(BlockWriter& out, const MFunctions& functions) { out.words(functions.words); }
 
 void write_block(BlockWriter& out, const Trans& trans) {
   out.write("TRANS ");
