@@ -1,6 +1,7 @@
 #include "nc/klartext/block_reader.hpp"
 
 #include "nc/klartext/parser_rules.hpp"
+#include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::klartext {
 namespace {
@@ -60,7 +61,7 @@ Text BlockReader::add_text(std::string_view text) {
 Text BlockReader::quoted_text(std::size_t longest, std::string_view what) {
   const char* begin = at();
   const std::string_view characters = quoted();
-  const std::size_t count = count_characters(characters);
+  const std::size_t count = tabfile::count_characters(characters);
   const auto control = std::find_if(characters.begin(), characters.end(),
                                     [](char c) { return static_cast<unsigned char>(c) < 0x20; });
   if (control != characters.end()) {

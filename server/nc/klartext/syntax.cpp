@@ -1,5 +1,7 @@
 #include "nc/klartext/syntax.hpp"
 
+#include "tables/tabfile/characters.hpp"
+
 namespace fitgauge::klartext {
 namespace {
 
@@ -15,19 +17,6 @@ const BeginProgram* begin_of(const std::vector<Block>& blocks) {
 template <class T>
 std::size_t bytes_of(const std::vector<T>& pool) {
   return sizeof(T) * pool.size();
-}
-
-/// Eight bytes at a time: nearly every program is plain ASCII.
-bool is_ascii(std::string_view text) {
-  constexpr std::uint64_t kHighBits = 0x8080808080808080;
-  std::size_t i = 0;
-  for (; i + sizeof(std::uint64_t) <= text.size(); i += sizeof(std::uint64_t)) {
-    std::uint64_t bytes = 0;
-    std::memcpy(&bytes, text.data() + i, sizeof bytes);
-    if ((bytes & kHighBits) != 0) return false;
-  }
-  return std::all_of(text.begin() + static_cast<std::ptrdiff_t>(i), text.end(),
-                     [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
 /// In place; the text up to the first CR stays untouched.
@@ -110,15 +99,9 @@ std::string_view Program::name() const {
 std::string decode_source(std::string bytes) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (bytes.starts_with(kByteOrderMark)) bytes.erase(0, kByteOrderMark.size());
-  if (!is_ascii(bytes) && !is_utf8(bytes)) bytes = utf8_from_windows1252(bytes);
+  if (!is_utf8(bytes)) bytes = utf8_from_windows1252(bytes);
   unify_line_ends(bytes);
   return bytes;
-}
-
-std::size_t count_characters(std::string_view utf8) {
-  return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  }));
 }
 
 std::size_t count_lines(std::string_view source) {
@@ -130,10 +113,9 @@ SourcePosition position_of(std::string_view source, const std::vector<std::uint3
   if (line_starts.empty()) return {};
   const auto next = std::upper_bound(line_starts.begin() + 1, line_starts.end(), offset);
   const std::uint32_t start = *std::prev(next);
-  return {
-      .line = static_cast<std::uint32_t>(next - line_starts.begin()),
-      .column =
-          static_cast<std::uint32_t>(count_characters(source.substr(start, offset - start))) + 1};
+  const std::size_t before = tabfile::count_characters(source.substr(start, offset - start));
+  return {static_cast<std::uint32_t>(next - line_starts.begin()),
+          static_cast<std::uint32_t>(before) + 1};
 }
 
 std::string_view line_of(std::string_view source, const std::vector<std::uint32_t>& line_starts,

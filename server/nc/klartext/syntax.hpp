@@ -91,9 +91,6 @@ class Program {
 /// when the bytes are not valid UTF-8), every line ending CRLF, LF or CR as LF.
 std::string decode_source(std::string bytes);
 
-/// The number of characters (code points) of a UTF-8 text.
-std::size_t count_characters(std::string_view utf8);
-
 /// Returns the number of line ends plus 1.
 std::size_t count_lines(std::string_view source);
 
