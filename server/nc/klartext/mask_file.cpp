@@ -15,10 +15,10 @@ constexpr std::string_view kKeywords[] = {"CALL_PATH", "HOUR",      "MIN",   "SE
 constexpr std::string_view kControls[] = {"M_CLOSE",    "M_APPEND",     "",  // M_APPEND_MAX20
                                           "M_TRUNCATE", "M_EMPTY_HIDE", "M_EMPTY_SHOW"};
 constexpr std::string_view kLanguages[] = {
-    "L_ENGLISH",   "L_GERMAN",   "L_CZECH",   "L_FRENCH",       "L_ITALIAN",   "L_SPANISH",
-    "L_PORTUGUE",  "L_SWEDISH",  "L_DANISH",  "L_FINNISH",      "L_DUTCH",     "L_POLISH",
-    "L_HUNGARIA",  "L_RUSSIAN",  "L_CHINESE", "L_CHINESE_TRAD", "L_SLOVENIAN", "L_KOREAN",
-    "L_NORWEGIAN", "L_ROMANIAN", "L_SLOVAK",  "L_TURKISH",      "L_ALL"};
+    "L_ENGLISH", "L_GERMAN",    "L_DUTCH",    "L_ITALIAN",  "L_POLISH",       "L_ALL",
+    "L_CZECH",   "L_FRENCH",    "L_SPANISH",  "L_PORTUGUE", "L_SWEDISH",      "L_DANISH",
+    "L_FINNISH", "L_HUNGARIA",  "L_RUSSIAN",  "L_CHINESE",  "L_CHINESE_TRAD", "L_SLOVENIAN",
+    "L_KOREAN",  "L_NORWEGIAN", "L_ROMANIAN", "L_SLOVAK",   "L_TURKISH"};
 
 /// A value and whether it is a text.
 struct Argument {
@@ -206,7 +206,8 @@ std::variant<MaskFormat, MaskControl, MaskLanguage> parse_keyword(Lexer& in) {
     return MaskControl{.kind = MaskControlKind::AppendMax,
                        .kilobytes = static_cast<int>(kilobytes)};
   }
-  if (const auto language = accept_name<MaskLanguage>(in, kLanguages)) return *language;
+  if (const auto language = accept_name<MaskLanguage>(in, kLanguages))
+    return std::min(*language, MaskLanguage::Other);
   const char* begin = in.at();
   const std::string_view word = in.rest();
   in.fail(DiagnosticCode::MaskKeywordUnknown, in.place(begin, begin + word.size()),

@@ -4,32 +4,8 @@
 
 namespace fitgauge::klartext {
 
-/// Dialog languages of the `L_` lines.
-enum class MaskLanguage : std::uint8_t {
-  English,
-  German,
-  Czech,
-  French,
-  Italian,
-  Spanish,
-  Portuguese,
-  Swedish,
-  Danish,
-  Finnish,
-  Dutch,
-  Polish,
-  Hungarian,
-  Russian,
-  Chinese,
-  ChineseTraditional,
-  Slovenian,
-  Korean,
-  Norwegian,
-  Romanian,
-  Slovak,
-  Turkish,
-  All
-};
+/// The dialog languages of the `L_` lines that a control here may have, and the others.
+enum class MaskLanguage : std::uint8_t { English, German, Dutch, Italian, Polish, All, Other };
 
 /// Values of a mask from the control instead of a parameter.
 enum class MaskKeyword : std::uint8_t {
