@@ -2,7 +2,6 @@
 
 #include <regex>
 
-#include "nc/iso/codes.hpp"
 #include "nc/iso/parser.hpp"
 #include "nc/iso/translation.hpp"
 #include "nc/klartext/parser.hpp"

@@ -1,4 +1,4 @@
-#include "nc/iso/codes.hpp"
+#include "nc/iso/translation.hpp"
 
 #include "nc/klartext/operator_names.hpp"
 #include "nc/klartext/parser_rules.hpp"

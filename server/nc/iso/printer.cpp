@@ -1,5 +1,5 @@
-#include "nc/iso/codes.hpp"
 #include "nc/iso/parser.hpp"
+#include "nc/iso/translation.hpp"
 #include "nc/klartext/operator_names.hpp"
 
 namespace fitgauge::iso {

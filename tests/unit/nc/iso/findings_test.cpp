@@ -2,8 +2,8 @@
 
 #include <fstream>
 
-#include "nc/iso/codes.hpp"
 #include "nc/iso/parser.hpp"
+#include "nc/iso/translation.hpp"
 
 namespace fitgauge::iso {
 namespace {
