@@ -146,7 +146,7 @@ class Converter {
              "a program name in a parameter gets the extension of its caller, .H or .I: write the "
              "extension into the text");
     }
-    if (!std::holds_alternative<klartext::Cycle>(block.statement) && block.comment_mark)
+    if (!block.is<klartext::Cycle>() && block.comment_mark)
       text += fmt::format("{};{}", text.empty() ? "" : " ", program_.text(block.comment));
     return text;
   }
@@ -193,7 +193,7 @@ class Converter {
   bool has_second_part(std::size_t i) const {
     const auto part = [&](std::size_t at) -> std::optional<unsigned> {
       if (at >= blocks_.size() || blocks_[at].comment_mark || blocks_[at].skip) return std::nullopt;
-      const auto* cycle = std::get_if<klartext::CyclePart>(&blocks_[at].statement);
+      const auto* cycle = blocks_[at].as<klartext::CyclePart>();
       return cycle != nullptr ? std::optional<unsigned>(cycle->part) : std::nullopt;
     };
     return part(i) == 0U && part(i + 1) == 1U && part(i + 2).value_or(0) == 0;
@@ -203,7 +203,7 @@ class Converter {
   std::string code(const klartext::Block& block, std::string_view klartext) {
     static const std::vector<Row> kRows = all_rows();
     const std::size_t end = std::min(klartext.find(" ;"), klartext.size());
-    const bool is_cycle = std::holds_alternative<klartext::Cycle>(block.statement);
+    const bool is_cycle = block.is<klartext::Cycle>();
     const std::string_view bare = is_cycle ? klartext : klartext.substr(0, end);
     stated_.reset();
     const auto tried = [&](std::string text) {
@@ -212,7 +212,7 @@ class Converter {
       stated_.reset();
       return std::string();
     };
-    if (const auto* motion = std::get_if<klartext::Motion>(&block.statement)) {
+    if (const auto* motion = block.as<klartext::Motion>()) {
       const std::string path = this->motion(*motion, bare);
       if (!path.empty()) return tried(path);
       stated_.reset();

@@ -17,7 +17,6 @@ inline constexpr std::string_view kBlankKinds[] = {"0.1", "0.2", "CYLINDER", "RO
 inline constexpr std::string_view kPlaneKinds[] = {"SPATIAL", "PROJECTED", "EULER", "VECTOR",
                                                    "POINTS",  "RELATIV",   "AXIAL", "RESET"};
 inline constexpr std::string_view kPlanePositionings[] = {"", "TURN", "MOVE", "STAY"};
-inline constexpr std::string_view kOperatingModes[] = {"MILL", "TURN", "GRIND"};
 inline constexpr std::string_view kPatternElements[] = {"POS",   "ROW",  "PAT",
                                                         "FRAME", "CIRC", "PITCHCIRC"};
 

@@ -133,18 +133,17 @@ class Parser {
       block.comment = in_.block_comment();
       block.comment_mark = !block.comment.empty();
     }
-    if (!failed && std::holds_alternative<ErrorBlock>(block.statement)) {
+    if (!failed && block.is<ErrorBlock>()) {
       report(Severity::Warning, DiagnosticCode::ErrorBlockPresent, block,
              "the control stored this block as faulty: the program stops here");
     }
-    const bool is_frame = std::holds_alternative<BeginProgram>(block.statement) ||
-                          std::holds_alternative<EndProgram>(block.statement);
+    const bool is_frame = block.is<BeginProgram, EndProgram>();
     if (!begun_ || is_frame) check_frame(block, failed);
   }
 
   void check_frame(const Block& block, bool failed) {
-    if (std::holds_alternative<Empty>(block.statement)) return;
-    const auto* begin = std::get_if<BeginProgram>(&block.statement);
+    if (block.is<Empty>()) return;
+    const auto* begin = block.as<BeginProgram>();
     if (!begun_ && begin == nullptr && !failed) {
       report(Severity::Error, DiagnosticCode::BeginMissing, block,
              "a program begins with BEGIN PGM name MM, or INCH");
@@ -156,7 +155,7 @@ class Parser {
     if (!begun_ && begin != nullptr) begin_ = *begin;
     if (!begun_ && failed) return;  // BEGIN PGM may follow
     begun_ = true;
-    if (const auto* end = std::get_if<EndProgram>(&block.statement)) {
+    if (const auto* end = block.as<EndProgram>()) {
       ended_ = true;
       if (begin_ && (!ascii_iequals(in_.text(end->name), in_.text(begin_->name)) ||
                      end->unit != begin_->unit)) {

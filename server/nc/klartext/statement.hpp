@@ -311,11 +311,8 @@ struct Plane {
   Slice<Word> words{};
 };
 
-enum class OperatingMode : std::uint8_t { Mill, Turn, Grind };
-
 /// `FUNCTION MODE MILL ["kinematics"]`.
 struct FunctionMode {
-  OperatingMode mode = OperatingMode::Mill;
   Text kinematics{};
 };
 

@@ -8,8 +8,8 @@ namespace {
 /// Comments may precede BEGIN PGM.
 const BeginProgram* begin_of(const std::vector<Block>& blocks) {
   for (const Block& block : blocks) {
-    if (const auto* begin = std::get_if<BeginProgram>(&block.statement)) return begin;
-    if (!std::holds_alternative<Empty>(block.statement)) break;
+    if (const auto* begin = block.as<BeginProgram>()) return begin;
+    if (!block.is<Empty>()) break;
   }
   return nullptr;
 }

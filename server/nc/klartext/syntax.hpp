@@ -15,6 +15,17 @@ struct Block {
   std::uint32_t number = 0;
   Slice<char> written{};  ///< its place in the source, with all physical lines
   Text comment{};         ///< after `;` as written; of a cycle, of its first line
+
+  /// The statement if it is of that kind, or null.
+  template <class Kind>
+  const Kind* as() const {
+    return std::get_if<Kind>(&statement);
+  }
+  /// Whether the statement is of one of these kinds.
+  template <class... Kinds>
+  bool is() const {
+    return (std::holds_alternative<Kinds>(statement) || ...);
+  }
 };
 
 static_assert(std::is_trivially_copyable_v<Block> && sizeof(Block) == 56,
