@@ -29,72 +29,42 @@ struct Record {
   Vec3 offset;
 };
 
-/// Reads one row after the other; keeps the first error.
-class RecordReader {
- public:
-  explicit RecordReader(const TabTable& table) : table_(table) {}
+Result<Vec3> read_vector(const TabTable& table, std::int64_t row,
+                         const std::array<std::string_view, 3>& columns) {
+  Vec3 vector;
+  for (std::size_t k = 0; k < 3; ++k) vector[k] = TRY(table.number(row, columns[k]));
+  return vector;
+}
 
-  NcResult<probing::KinematicsRecords> read() {
-    for (std::int64_t row = 0; row < static_cast<std::int64_t>(table_.row_count()); ++row) {
-      add(row);
-      if (!wrong_.empty()) return broken(fmt::format("row {}: {}", row, wrong_));
-    }
-    probing::KinematicsRecords records;
-    for (auto& [name, record] : found_)
-      records.emplace(name, Kinematics(std::move(record.axes), record.offset));
-    return records;
-  }
-
- private:
-  void add(std::int64_t row) {
-    const Vec3 point = vector(row, {"X", "Y", "Z"});
-    const std::string name(text(row, "NAME"));
-    const std::string_view part = text(row, "AXIS");
-    if (part == kTool) {
-      found_[name].offset = point;
-      return;
-    }
-    const auto axis = std::ranges::find_if(
-        machine::kAllAxes, [&](Axis candidate) { return machine::name(candidate) == part; });
-    const std::string_view mount = text(row, "ON");
-    if (axis == machine::kAllAxes.end() || !is_rotary(*axis))
-      return fail("AXIS must be one of: A, B, C, TOOL");
-    if (mount != kOnTable && mount != kOnHead) return fail("ON must be one of: TABLE, HEAD");
-    std::vector<RotaryAxis>& axes = found_[name].axes;
-    if (std::ranges::count(axes, *axis, &RotaryAxis::axis) > 0) return fail("the axis is repeated");
-    const Vec3 direction = vector(row, {"I", "J", "K"});
-    if (direction == Vec3{}) return fail("the direction must not be zero");
-    // Records of older versions, without zeros, lack this column.
-    const double zero = table_.find_column(kZero) ? number(row, kZero) : 0;
-    axes.push_back(
-        {*axis, mount == kOnTable ? AxisMount::Table : AxisMount::Head, point, direction, zero});
-  }
-
-  std::string_view text(std::int64_t row, std::string_view column) {
-    const auto cell = table_.text(row, column);
-    if (cell) return *cell;
-    fail(cell.error().message);
+/// Adds a row to the records.
+Result<void> add_row(const TabTable& table, std::int64_t row,
+                     std::map<std::string, Record>& records) {
+  const auto wrong = [](std::string what) {
+    return Error{ErrorCode::FieldInvalid, std::move(what)};
+  };
+  const Vec3 point = TRY(read_vector(table, row, {"X", "Y", "Z"}));
+  Record& record = records[std::string(TRY(table.text(row, "NAME")))];
+  const std::string_view part = TRY(table.text(row, "AXIS"));
+  if (part == kTool) {
+    record.offset = point;
     return {};
   }
-  Vec3 vector(std::int64_t row, const std::array<std::string_view, 3>& columns) {
-    Vec3 vector;
-    for (std::size_t k = 0; k < 3; ++k) vector[k] = number(row, columns[k]);
-    return vector;
-  }
-  double number(std::int64_t row, std::string_view column) {
-    const auto value = table_.number(row, column);
-    if (value) return *value;
-    fail(value.error().message);
-    return 0;
-  }
-  void fail(std::string_view what) {
-    if (wrong_.empty()) wrong_ = what;
-  }
-
-  const TabTable& table_;
-  std::map<std::string, Record> found_;
-  std::string wrong_;
-};
+  const auto axis = std::ranges::find_if(
+      machine::kAllAxes, [&](Axis candidate) { return machine::name(candidate) == part; });
+  const std::string_view mount = TRY(table.text(row, "ON"));
+  if (axis == machine::kAllAxes.end() || !is_rotary(*axis))
+    return wrong("AXIS must be one of: A, B, C, TOOL");
+  if (mount != kOnTable && mount != kOnHead) return wrong("ON must be one of: TABLE, HEAD");
+  if (std::ranges::count(record.axes, *axis, &RotaryAxis::axis) > 0)
+    return wrong("the axis is repeated");
+  const Vec3 direction = TRY(read_vector(table, row, {"I", "J", "K"}));
+  if (direction == Vec3{}) return wrong("the direction must not be zero");
+  // Records of older versions, without zeros, lack this column.
+  const double zero = table.find_column(kZero) ? TRY(table.number(row, kZero)) : 0;
+  record.axes.push_back(
+      {*axis, mount == kOnTable ? AxisMount::Table : AxisMount::Head, point, direction, zero});
+  return {};
+}
 
 TabTable empty_table() {
   constexpr std::size_t kName = 16;
@@ -130,7 +100,15 @@ NcResult<probing::KinematicsRecords> read_kinematics_records(const RunFiles& fil
   if (!file) return probing::KinematicsRecords{};
   const auto table = tabfile::read_tab_file(*file->bytes, allowance);
   if (!table) return broken(table.error().message);
-  return RecordReader(*table).read();
+  std::map<std::string, Record> found;
+  for (std::int64_t row = 0; row < static_cast<std::int64_t>(table->row_count()); ++row) {
+    if (const auto added = add_row(*table, row, found); !added)
+      return broken(fmt::format("row {}: {}", row, added.error().message));
+  }
+  probing::KinematicsRecords records;
+  for (auto& [name, record] : found)
+    records.emplace(name, Kinematics(std::move(record.axes), record.offset));
+  return records;
 }
 
 NcResult<void> write_kinematics_records(RunFiles& files,
