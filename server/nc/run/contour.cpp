@@ -45,14 +45,13 @@ WorkingPlane working_plane(const Machine& machine) {
 }
 
 void Contour::compensate(klartext::RadiusCompensation compensation) {
-  using klartext::RadiusCompensation;
-  if (compensation == RadiusCompensation::Unchanged) return;
-  side_ = compensation == RadiusCompensation::Rl   ? 1
-          : compensation == RadiusCompensation::Rr ? -1
-                                                   : 0;
-  lengthening_ = compensation == RadiusCompensation::RPlus    ? 1
-                 : compensation == RadiusCompensation::RMinus ? -1
-                                                              : 0;
+  if (compensation == klartext::RadiusCompensation::Unchanged) return;
+  // Of R0, RL, RR, R+ and R-.
+  constexpr int kSides[] = {0, 1, -1, 0, 0};
+  constexpr int kLengthenings[] = {0, 0, 0, 1, -1};
+  const std::size_t i = static_cast<std::size_t>(compensation) - 1;
+  side_ = kSides[i];
+  lengthening_ = kLengthenings[i];
 }
 
 Position Contour::position(const Machine& machine) const {

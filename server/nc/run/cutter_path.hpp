@@ -57,8 +57,9 @@ struct Curve {
   bool is_arc() const { return centre.has_value(); }
   bool is_left_turn() const { return sweep_deg > 0; }
   /// Unit vectors of travel; nothing for a line without length.
-  std::optional<Vec2> start_direction() const;
-  std::optional<Vec2> end_direction() const;
+  std::optional<Vec2> start_direction() const { return direction_at(start); }
+  std::optional<Vec2> end_direction() const { return direction_at(end); }
+  std::optional<Vec2> direction_at(Vec2 point) const;
 };
 
 /// The sweep from `start` to `end` around `centre`: 0 < |sweep| <= 360; equal points are a full

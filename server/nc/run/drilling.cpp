@@ -28,25 +28,24 @@ class Drilling {
  public:
   explicit Drilling(Machining& cycle)
       : cycle_(cycle),
-        motion_(cycle),
         heights_(cycle.heights),
         number_(cycle.definition.cycle->descriptor.number),
         begin_(heights_.surface - cycle.value(379)) {}
 
   NcResult<void> run() {
     TRY(cycle_.start());
-    const Modes before = motion_.state().modes;
+    const Modes before = cycle_.state().modes;
     TRY(set_spindle(before, false));
     if (cycle_.value(379) != 0) {
       const double above = begin_ + cycle_.value(200);
-      TRY(motion_.to_height(above, cycle_.feed(253)));
+      TRY(cycle_.to_height(above, cycle_.feed(253)));
     }
     TRY(set_spindle(before, true));
     TRY(cut());
-    TRY(motion_.dwell(cycle_.value(211)));
+    TRY(cycle_.dwell(cycle_.value(211)));
     TRY(set_spindle(before, false));
-    TRY(motion_.to_height(heights_.clearance, cycle_.retraction()));
-    TRY(motion_.set_modes(before));
+    TRY(cycle_.to_height(heights_.clearance, cycle_.retraction()));
+    TRY(cycle_.set_modes(before));
     return cycle_.leave();
   }
 
@@ -62,13 +61,13 @@ class Drilling {
     modes.spindle_rpm = cycle_.value(drills ? 428 : 427);
     modes.coolant =
         drills ? modes.coolant || cycle_.value(429) == 8 : modes.coolant && cycle_.value(430) != 9;
-    if (drills) return motion_.set_modes(modes);
+    if (drills) return cycle_.set_modes(modes);
     const bool is_reversed = modes.spindle == SpindleState::CounterClockwise;
     modes.spindle = cycle_.value(426) == 3   ? SpindleState::Clockwise
                     : cycle_.value(426) == 4 ? SpindleState::CounterClockwise
                     : is_reversed            ? SpindleState::StoppedAfterM4
                                              : SpindleState::StoppedAfterM3;
-    return motion_.set_modes(modes);
+    return cycle_.set_modes(modes);
   }
   /// Stops Q258 above the drilled depth and breaks the chip after each Q257.
   bool is_universal() const { return number_ == 205 || number_ == 264; }
@@ -94,7 +93,7 @@ class Drilling {
       reached = next;
       if (reached == heights_.bottom) break;
       if (is_single_lip()) {
-        TRY(motion_.dwell(cycle_.value(211)));
+        TRY(cycle_.dwell(cycle_.value(211)));
         continue;
       }
       if (number_ == 203 && breaks_left > 0) {
@@ -114,36 +113,34 @@ class Drilling {
       const double next = at - chip;
       if (next == at) return nc_error(1011, "the depth for chip breaking Q257 is too small");
       at = next;
-      TRY(motion_.to_height(at, cycle_.feed(206)));
+      TRY(cycle_.to_height(at, cycle_.feed(206)));
       TRY(break_chip(at));
     }
-    if (!is_single_lip() || cycle_.value(435) == 0) return motion_.to_height(to, cycle_.feed(206));
+    if (!is_single_lip() || cycle_.value(435) == 0) return cycle_.to_height(to, cycle_.feed(206));
     // Beyond the dwell depth at Q401 percent of the feed.
     const double slows_at = heights_.surface - std::abs(cycle_.value(435));
     const bool is_short = to >= slows_at;
     if (from > slows_at) {
-      auto done = motion_.to_height(is_short ? to : slows_at, cycle_.feed(206));
-      if (done && !is_short) done = motion_.dwell(cycle_.value(211));
+      auto done = cycle_.to_height(is_short ? to : slows_at, cycle_.feed(206));
+      if (done && !is_short) done = cycle_.dwell(cycle_.value(211));
       if (!done || is_short) return done;
     }
-    return motion_.to_height(to, feed_of(cycle_.value(206) * cycle_.value(401) / 100));
+    return cycle_.to_height(to, feed_of(cycle_.value(206) * cycle_.value(401) / 100));
   }
 
   NcResult<void> break_chip(double reached) {
-    return motion_.to_height(reached + cycle_.value(256), cycle_.retraction());
+    return cycle_.to_height(reached + cycle_.value(256), cycle_.retraction());
   }
 
   /// Out to the clearance, and back to the stop above the reached depth.
   NcResult<void> clear_chips(double reached) {
-    TRY(motion_.to_height(heights_.clearance,
-                          number_ == 203 ? cycle_.retraction() : Feed::rapid()));
-    TRY(motion_.dwell(cycle_.value(210)));
+    TRY(cycle_.to_height(heights_.clearance, number_ == 203 ? cycle_.retraction() : Feed::rapid()));
+    TRY(cycle_.dwell(cycle_.value(210)));
     const double above = reached + stop_above(reached);
-    return above < heights_.clearance ? motion_.to_height(above, Feed::rapid()) : NcResult<void>();
+    return above < heights_.clearance ? cycle_.to_height(above, Feed::rapid()) : NcResult<void>();
   }
 
   Machining& cycle_;
-  ToolMotion& motion_;
   const Heights& heights_;
   const int number_;
   const double begin_;  ///< where the hole begins: the surface, or the deepened starting point
@@ -158,13 +155,8 @@ Feed thread_feed(const Machining& cycle, double factor = 1) {
 
 /// Q214: away from the wall, with a stopped spindle.
 Vec2 withdrawal(const Machining& cycle, double by) {
-  switch (static_cast<int>(cycle.value(214))) {
-    case 1: return {-by, 0};
-    case 2: return {0, -by};
-    case 3: return {by, 0};
-    case 4: return {0, by};
-    default: return {};
-  }
+  constexpr std::array<Vec2, 5> kWays{Vec2{0, 0}, Vec2{-1, 0}, Vec2{0, -1}, Vec2{1, 0}, Vec2{0, 1}};
+  return kWays[static_cast<std::size_t>(std::clamp(cycle.value(214), 0.0, 4.0))] * by;
 }
 
 }  // namespace

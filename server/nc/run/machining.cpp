@@ -32,30 +32,24 @@ Heights heights_of(const MachiningDefinition& definition, const ToolMotion& moti
   return heights;
 }
 
-/// A rectangle has no larger corners than half of its shorter side.
-NcResult<void> note_corner(Channel& channel, const MachiningDefinition& definition) {
-  if (definition.cycle->shape != MachiningShape::RectangularStud) return {};
+/// Notes a tool that does not cut, and a corner that is smaller than programmed.
+NcResult<void> note_doubts(Channel& channel, const MachiningDefinition& definition) {
+  const MachineState& state = channel.state();
+  const MachiningShape shape = definition.cycle->shape;
+  const int number = definition.cycle->descriptor.number;
+  // Tapping and 241 start the spindle themselves.
+  if (shape != MachiningShape::Tapping && number != 241 && !state.modes.turns())
+    TRY(channel.note("cycle {} cuts with a standing spindle: give its speed S, and M3 or M4 before",
+                     number));
+  if (state.probe_system())
+    TRY(channel.note("cycle {} machines with the touch probe, tool {}: call a cutter", number,
+                     state.tool.number));
+  // A rectangle has no larger corners than half of its shorter side.
   const double most = std::min(definition.value(218), definition.value(219)) / 2;
-  if (definition.value(220) <= most) return {};
+  if (shape != MachiningShape::RectangularStud || definition.value(220) <= most) return {};
   return channel.note(
       "the corner radius Q220 = {} is larger than half of the shorter side: {} mm is milled",
       definition.value(220), most);
-}
-
-/// Tapping and 241 start the spindle themselves.
-NcResult<void> note_standing(Channel& channel, const MachiningCycle& cycle) {
-  const int number = cycle.descriptor.number;
-  const bool starts = cycle.shape == MachiningShape::Tapping || number == 241;
-  if (starts || channel.state().modes.turns()) return {};
-  return channel.note(
-      "cycle {} cuts with a standing spindle: give its speed S, and M3 or M4 before", number);
-}
-
-NcResult<void> note_probe(Channel& channel, const MachiningCycle& cycle) {
-  const MachineState& state = channel.state();
-  if (!state.probe_system()) return {};
-  return channel.note("cycle {} machines with the touch probe, tool {}: call a cutter",
-                      cycle.descriptor.number, state.tool.number);
 }
 
 /// The lanes of a surface: their positions and both ends. The tool enters from outside.
@@ -175,9 +169,7 @@ NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definit
     TRY(check_scaling(channel.state(), working_plane(channel.machine()), "milling cycles are"));
   TRY(check_values(definition));
   Machining cycle({channel.machine(), channel.budget}, definition);
-  TRY(note_standing(channel, *definition.cycle));
-  TRY(note_probe(channel, *definition.cycle));
-  TRY(note_corner(channel, definition));
+  TRY(note_doubts(channel, definition));
   if (shape == MachiningShape::Contour) return mill_contours(channel, cycle);
   // In the order of MachiningShape.
   constexpr NcResult<void> (*kMachine[])(Machining&) = {drill,

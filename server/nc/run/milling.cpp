@@ -80,15 +80,17 @@ NcResult<void> full_circle(Machining& cycle, Vec2 centre, double radius, double 
   return cycle.to_point(centre, cycle.feed(207));
 }
 
-/// The offset of the figure's centre from the tool position, by Q367.
+/// Q367: the place of the tool on the figure.
+std::size_t place_of(const Machining& cycle, double last) {
+  return static_cast<std::size_t>(std::clamp(cycle.value(367), 0.0, last));
+}
+
+/// The offset of the figure's centre from the tool position.
 Vec2 rectangle_centre(const Machining& cycle, double half_length, double half_width) {
-  switch (static_cast<int>(cycle.value(367))) {
-    case 1: return {half_length, half_width};
-    case 2: return {-half_length, half_width};
-    case 3: return {-half_length, -half_width};
-    case 4: return {half_length, -half_width};
-    default: return {};
-  }
+  constexpr std::array<Vec2, 5> kSigns{Vec2{0, 0}, Vec2{1, 1}, Vec2{-1, 1}, Vec2{-1, -1},
+                                       Vec2{1, -1}};
+  const Vec2 sign = kSigns[place_of(cycle, 4)];
+  return {sign.x * half_length, sign.y * half_width};
 }
 
 NcError does_not_fit(int number, double radius) {
@@ -224,8 +226,7 @@ NcResult<void> mill_circle(Machining& cycle) {
   // Q367 = 1 to 4: the tool is at a quarter of the circle, on its axes.
   constexpr std::array<Vec2, 5> kCentres{Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0},
                                          Vec2{0, -1}};
-  const auto place = static_cast<std::size_t>(std::clamp(cycle.value(367), 0.0, 4.0));
-  const Vec2 centre = cycle.point() + kCentres[place] * half;
+  const Vec2 centre = cycle.point() + kCentres[place_of(cycle, 4)] * half;
   return at_each_depth(cycle, centre,
                        [&](double depth) { return full_circle(cycle, centre, radius, depth); });
 }
@@ -237,7 +238,7 @@ NcResult<void> mill_slot(Machining& cycle) {
   if (radius < 0) return does_not_fit(1028, cycle.tool_radius());
   const double reach = half_length - half_width;  // of the end circles' centres
   constexpr std::array<double, 5> kEnds{0, 1, 1, -1, -1};
-  const auto place = static_cast<std::size_t>(std::clamp(cycle.value(367), 0.0, 4.0));
+  const std::size_t place = place_of(cycle, 4);
   double along = kEnds[place] * (place == 2 || place == 3 ? reach : half_length);
   // The old cycle begins in the slot, with the tool at its end.
   if (cycle.definition.cycle->descriptor.dotted) along = half_length - cycle.tool_radius();
@@ -254,7 +255,7 @@ NcResult<void> mill_circular_slot(Machining& cycle) {
   if (pitch - width <= 0) return nc_error(1003, "the slot lies across the centre of its circle");
   // Q367: position of the tool on the slot; Q376 is the angle of that place.
   constexpr std::array<double, 4> kParts{0, 0, 0.5, 1};
-  const auto place = static_cast<std::size_t>(std::clamp(cycle.value(367), 0.0, 3.0));
+  const std::size_t place = place_of(cycle, 3);
   const double angle = cycle.value(376) - kParts[place] * length;
   const Vec2 centre = place == 0 ? Vec2{cycle.value(216), cycle.value(217)}
                                  : cycle.point() - polar(pitch, cycle.value(376));

@@ -92,18 +92,10 @@ Vec2 turned(Vec2 a, double angle_deg) {
   return {a.x * cosine - a.y * sine, a.x * sine + a.y * cosine};
 }
 
-std::optional<Vec2> Curve::start_direction() const {
-  if (!is_arc()) {
-    if (norm(end - start) < tolerance::kSamePoint) return std::nullopt;
-    return unit(end - start);
-  }
-  const Vec2 left = left_of(unit(start - *centre));
-  return is_left_turn() ? left : left * -1;
-}
-
-std::optional<Vec2> Curve::end_direction() const {
-  if (!is_arc()) return start_direction();
-  const Vec2 left = left_of(unit(end - *centre));
+std::optional<Vec2> Curve::direction_at(Vec2 point) const {
+  if (!is_arc() && norm(end - start) < tolerance::kSamePoint) return std::nullopt;
+  if (!is_arc()) return unit(end - start);
+  const Vec2 left = left_of(unit(point - *centre));
   return is_left_turn() ? left : left * -1;
 }
 
