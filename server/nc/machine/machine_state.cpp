@@ -3,6 +3,43 @@
 #include "nc/machine/fault.hpp"
 
 namespace fitgauge::machine {
+namespace {
+
+constexpr ToolColumn kToolColumns[] = {
+    {1, "L", &Tool::l, true},
+    {2, "R", &Tool::r, true},
+    {3, "R2", &Tool::r2, true},
+    {4, "DL", &Tool::dl, true},
+    {5, "DR", &Tool::dr, true},
+    {6, "DR2", &Tool::dr2, true},
+    {13, "LCUTS", &Tool::cutting_length, true},
+    {16, "LTOL", &Tool::l_tolerance, true},
+    {17, "RTOL", &Tool::r_tolerance, true},
+    {0, "R2TOL", &Tool::r2_tolerance, true},
+    {19, "R-OFFS", &Tool::r_offset, true},
+    {20, "L-OFFS", &Tool::l_offset, true},
+    {21, "LBREAK", &Tool::l_breakage, true},
+    {22, "RBREAK", &Tool::r_breakage, true},
+    {33, "PITCH", &Tool::pitch, true},
+    {9, "TIME1", &Tool::time1},
+    {10, "TIME2", &Tool::time2},
+    {11, "CUR_TIME", &Tool::current_time},
+    {14, "ANGLE", &Tool::plunge_angle},
+    {28, "NMAX", &Tool::max_rpm},
+    {32, "T-ANGLE", &Tool::point_angle},
+    {8, "RT", nullptr, false, &Tool::replacement, 32'767},
+    {15, "CUT", nullptr, false, &Tool::teeth, 1000},
+    {36, "TYP", nullptr, false, &Tool::type, 999},
+};
+
+}  // namespace
+
+std::span<const ToolColumn> tool_columns() { return kToolColumns; }
+
+const ToolColumn* tool_column(std::int64_t nr) {
+  const auto* found = std::ranges::find(kToolColumns, nr, &ToolColumn::nr);
+  return nr == 0 || found == std::end(kToolColumns) ? nullptr : found;
+}
 
 double MachineState::tool_length() const {
   const Tool* row = active_tool();

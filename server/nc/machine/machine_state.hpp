@@ -77,36 +77,20 @@ struct Tool {
   friend bool operator==(const Tool&, const Tool&) = default;
 };
 
-/// A column of tool.t whose value is any number.
+/// A column of tool.t with a number.
 struct ToolColumn {
+  int nr;  ///< of FN 17 and FN 18 ID50; 0: they do not have the column
   std::string_view name;
-  double Tool::*value;
-  std::int64_t nr = 0;    ///< of FN 17 and FN 18 with ID 50; 0: they have no such number
-  bool is_length = true;  ///< in the unit of the table
+  double Tool::*number;  ///< null: `whole`
+  bool is_length = false;
+  int Tool::*whole = nullptr;
+  int most = 0;  ///< of `whole`
 };
-inline constexpr ToolColumn kToolColumns[] = {
-    {"L", &Tool::l, 1},
-    {"R", &Tool::r, 2},
-    {"R2", &Tool::r2, 3},
-    {"DL", &Tool::dl, 4},
-    {"DR", &Tool::dr, 5},
-    {"DR2", &Tool::dr2, 6},
-    {"LCUTS", &Tool::cutting_length, 13},
-    {"LTOL", &Tool::l_tolerance, 16},
-    {"RTOL", &Tool::r_tolerance, 17},
-    {"R2TOL", &Tool::r2_tolerance},
-    {"R-OFFS", &Tool::r_offset, 19},
-    {"L-OFFS", &Tool::l_offset, 20},
-    {"LBREAK", &Tool::l_breakage, 21},
-    {"RBREAK", &Tool::r_breakage, 22},
-    {"PITCH", &Tool::pitch, 33},
-    {"TIME1", &Tool::time1, 9, false},
-    {"TIME2", &Tool::time2, 10, false},
-    {"CUR_TIME", &Tool::current_time, 11, false},
-    {"ANGLE", &Tool::plunge_angle, 14, false},
-    {"NMAX", &Tool::max_rpm, 28, false},
-    {"T-ANGLE", &Tool::point_angle, 32, false},
-};
+
+/// Lengths first, whole numbers last.
+std::span<const ToolColumn> tool_columns();
+/// Null if no column has that NR.
+const ToolColumn* tool_column(std::int64_t nr);
 
 /// A table of the control by the numbers of its rows. Not thread-safe; a write replaces a whole
 /// row.

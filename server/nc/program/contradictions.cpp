@@ -2,8 +2,8 @@
 
 #include "nc/probing/cycles.hpp"
 #include "nc/program/cycles.hpp"
+#include "nc/program/diagnose.hpp"
 #include "nc/program/followed_values.hpp"
-#include "nc/program/link_check.hpp"
 #include "nc/program/word_senses.hpp"
 
 namespace fitgauge::interpreter {
@@ -32,8 +32,8 @@ class Contradictions {
 
   void check() {
     for (const Block& block : program_.blocks()) {
-      has_tool_ = has_tool_ || std::holds_alternative<klartext::ToolCall>(block.statement);
-      if (const auto* label = std::get_if<klartext::LabelDefinition>(&block.statement))
+      has_tool_ = has_tool_ || block.is<klartext::ToolCall>();
+      if (const auto* label = block.as<klartext::LabelDefinition>())
         if (const auto* number = std::get_if<std::uint32_t>(&label->label))
           labels_.try_emplace(*number, &block);
     }
@@ -178,16 +178,15 @@ class Contradictions {
     bool is_plain = number != nullptr && labels_.contains(*number);
     is_called_ = true;
     for (block_ = is_plain ? labels_[*number] : end; is_plain && block_ != end; ++block_) {
-      if (const auto* definition = std::get_if<klartext::LabelDefinition>(&block_->statement)) {
+      if (const auto* definition = block_->as<klartext::LabelDefinition>()) {
         if (definition->label == Label(0U)) break;
-      } else if (const auto* cycle = std::get_if<klartext::Cycle>(&block_->statement)) {
+      } else if (const auto* cycle = block_->as<klartext::Cycle>()) {
         if (const auto* known = bind_cycle(program_, *cycle).descriptor())
           check_order(*cycle, *known);
-      } else if (const auto* assignment = std::get_if<klartext::Assignment>(&block_->statement)) {
+      } else if (const auto* assignment = block_->as<klartext::Assignment>()) {
         assign(*assignment);
       } else {
-        is_plain = std::holds_alternative<klartext::Motion>(block_->statement) ||
-                   std::holds_alternative<klartext::Empty>(block_->statement);
+        is_plain = block_->is<klartext::Motion, klartext::Empty>();
       }
       is_plain = is_plain && ++entered_ < kMostEntered;
     }
@@ -314,11 +313,10 @@ class Contradictions {
   std::string_view comment_above() const {
     if (!block_->comment.empty()) return trim(program_.text(block_->comment));
     if (before_ == nullptr) return {};
-    if (const auto* structure = std::get_if<klartext::Structure>(&before_->statement))
+    if (const auto* structure = before_->as<klartext::Structure>())
       return trim(program_.text(structure->text));
-    return std::holds_alternative<klartext::Empty>(before_->statement)
-               ? trim(program_.text(before_->comment))
-               : std::string_view();
+    return before_->is<klartext::Empty>() ? trim(program_.text(before_->comment))
+                                          : std::string_view();
   }
 
   /// At that of two numbers that is written last, but not in the cycle if the other is not.
@@ -359,10 +357,11 @@ class Contradictions {
   void check_order(const klartext::Cycle& cycle, const CycleDescriptor& descriptor) {
     auto values = constants_.known(program_, cycle, block_);
     const auto value = [&](int number) { return values[number].value; };
+    const auto both = [&](int a, int b) { return values.contains(a) && values.contains(b); };
     const bool is_probing = descriptor.family == probing::CycleFamily::TchProbe;
     for (const auto& [clearance, height] : kHeights) {
-      if (is_probing != (clearance == 260) || !values.contains(clearance) ||
-          !values.contains(height) || value(clearance) >= value(height))
+      if (is_probing != (clearance == 260) || !both(clearance, height) ||
+          value(clearance) >= value(height))
         continue;
       contradicts(values[clearance], values[height],
                   fmt::format("the clearance height Q{0} = {1} lies below Q{2} = {3}, {4} moves "
@@ -376,9 +375,8 @@ class Contradictions {
       const auto& least = descriptor.parameters[i];
       const int upper = static_cast<int>(most.id);
       const int lower = static_cast<int>(least.id);
-      if (!values.contains(upper) || !values.contains(lower) || value(upper) >= value(lower))
-        continue;
-      if ((senses_of(most.meaning) & senses("maximum")) == 0 ||
+      if (!both(upper, lower) || value(upper) >= value(lower) ||
+          (senses_of(most.meaning) & senses("maximum")) == 0 ||
           (senses_of(least.meaning) & senses("minimum")) == 0)
         continue;
       contradicts(values[upper], values[lower],
@@ -389,8 +387,7 @@ class Contradictions {
     for (const auto& [nominal, limit] : kLimitsOfSize) {
       const bool is_tolerance = limit == 279 || limit == 280;
       // Grade IT16 of ISO 286 with its largest deviation is within it.
-      if (!is_probing || !values.contains(nominal) || !values.contains(limit) ||
-          value(limit) == 0 ||
+      if (!is_probing || !both(nominal, limit) || value(limit) == 0 ||
           std::abs(value(limit) - (is_tolerance ? 0 : value(nominal))) <=
               std::max(2.0, value(nominal) / 10))
         continue;
@@ -427,8 +424,7 @@ class Contradictions {
 
   /// `Q274=+50` directly after a cycle without Q274: the previous line has no `~`.
   void check_line_before(QRef target) {
-    const auto* cycle =
-        before_ == nullptr ? nullptr : std::get_if<klartext::Cycle>(&before_->statement);
+    const auto* cycle = before_ == nullptr ? nullptr : before_->as<klartext::Cycle>();
     if (cycle == nullptr || block_->has_number) return;
     const CycleDescriptor* descriptor = bind_cycle(program_, *cycle).descriptor();
     if (descriptor == nullptr || find_parameter(*descriptor, target) == nullptr) return;

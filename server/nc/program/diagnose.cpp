@@ -1,6 +1,6 @@
 #include "nc/program/diagnose.hpp"
 
-#include "nc/program/link_check.hpp"
+#include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -56,7 +56,7 @@ using klartext::BlankKind;
 constexpr std::size_t kMostSearched = 1'000;
 
 bool is_lower_corner(const klartext::Block& block) {
-  const auto* blank = std::get_if<BlankForm>(&block.statement);
+  const auto* blank = block.as<BlankForm>();
   return blank != nullptr && blank->kind == BlankKind::Minimum;
 }
 
@@ -122,9 +122,7 @@ void suggest(std::vector<Diagnostic>& diagnostics, std::string_view wrong,
   const std::string word = ascii_upper(wrong);
   for (std::size_t at = 0; (at = line.find(word, at)) != line.npos; at += word.size()) {
     const auto column = [&](std::size_t byte) {
-      const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
-      return static_cast<std::uint32_t>(
-          1 + std::ranges::count_if(std::string_view(line).substr(0, byte), begins));
+      return static_cast<std::uint32_t>(1 + tabfile::count_characters(line.substr(0, byte)));
     };
     const std::size_t end = at + word.size();
     const bool is_whole =
@@ -167,7 +165,7 @@ bool is_ignored(const Program& program, const Diagnostic& found) {
 
 DiagnosticNote inch_note(const Program& program) {
   const auto begin = std::ranges::find_if(program.blocks(), [](const klartext::Block& block) {
-    return std::holds_alternative<klartext::BeginProgram>(block.statement);
+    return block.is<klartext::BeginProgram>();
   });
   return {"the lengths are in INCH", program.range(begin->written), {}};
 }
@@ -208,7 +206,7 @@ bool has_lower_corner(const Program& program) {
 
 std::vector<std::string> blank_faults(const Program& program, const klartext::Block& block,
                                       const BlankValue& value) {
-  const auto* blank = std::get_if<BlankForm>(&block.statement);
+  const auto* blank = block.as<BlankForm>();
   if (blank == nullptr) return {};
   const auto words = program.view(blank->words);
   if (blank->kind == BlankKind::Minimum && std::ranges::any_of(words, &Word::incremental))

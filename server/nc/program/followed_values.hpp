@@ -72,7 +72,7 @@ inline std::optional<DiagnosticEdit> written_value(const Program& program,
 
 /// Whether the cycle alone reads the parameter with a value: it is written twice in the program.
 inline bool is_read_once(const Program& program, const FollowedValue& followed) {
-  const auto* source = std::get_if<klartext::Assignment>(&followed.block->statement);
+  const auto* source = followed.block->as<klartext::Assignment>();
   if (source == nullptr) return true;
   std::size_t count = 0;
   for (const klartext::Block& block : program.blocks()) {

@@ -1,11 +1,10 @@
-#include "nc/program/link_check.hpp"
+#include "nc/program/diagnose.hpp"
 
 #include <bitset>
 
 #include "nc/klartext/parser.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/program/cycles.hpp"
-#include "nc/program/diagnose.hpp"
 #include "nc/program/word_senses.hpp"
 
 namespace fitgauge::interpreter {
@@ -17,10 +16,7 @@ using klartext::CyclePart;
 /// Maximum number of comments between two sub-lines of a cycle, which are skipped.
 constexpr std::uint32_t kMostBetween = 100;
 
-bool is_comment(const Block& block) {
-  return std::holds_alternative<klartext::Empty>(block.statement) ||
-         std::holds_alternative<klartext::Structure>(block.statement);
-}
+bool is_comment(const Block& block) { return block.is<klartext::Empty, klartext::Structure>(); }
 
 /// Returns the sub-line before (`step` -1) or after (1) the sub-line at `index`, if it belongs to
 /// that cycle.
@@ -32,7 +28,7 @@ std::optional<std::uint32_t> neighbour(const Program& program, std::uint32_t ind
     index += static_cast<std::uint32_t>(step);
     if (index >= blocks.size()) return std::nullopt;
     if (is_comment(blocks[index])) continue;
-    const auto* other = std::get_if<CyclePart>(&blocks[index].statement);
+    const auto* other = blocks[index].as<CyclePart>();
     if (other == nullptr || other->family != part.family || other->number != part.number) break;
     if (step > 0 ? other->part <= part.part : other->part >= part.part) break;
     return index;
@@ -241,25 +237,23 @@ class BlockCheck {
     if (part.number != 7 && part.number != 8 && part.number != 26) return;
     klartext::LetterSet named;
     bool names_row = false;
+    bool names_axis = false;
     for (const Word& word : program_.view(part.words)) {
-      named = named | klartext::LetterSet(word.letter);
-      names_row = names_row || word.letter == Letter::Row;
+      named.insert(word.letter);
+      names_row |= word.letter == Letter::Row;
+      names_axis |= is_axis(word.letter);
     }
     for (auto at = before; at; at = neighbour(program_, *at, -1)) {
-      const auto& other = std::get<CyclePart>(program_.blocks()[*at].statement);
-      for (const Word& word : program_.view(other.words)) {
+      const Block& other = program_.blocks()[*at];
+      for (const Word& word : program_.view(std::get<CyclePart>(other.statement).words)) {
+        names_row |= word.letter == Letter::Row;
         if (!named.contains(word.letter)) continue;
         return report(
             Severity::Error, DiagnosticCode::WordRepeated, block_.written,
             fmt::format("{} is also in line {} of this cycle", klartext::spelling(word.letter),
-                        program_.range(program_.blocks()[*at].written).begin.line));
+                        program_.range(other.written).begin.line));
       }
-      names_row = names_row || std::ranges::any_of(program_.view(other.words), [](const auto& w) {
-                    return w.letter == Letter::Row;
-                  });
     }
-    const bool names_axis = std::ranges::any_of(
-        program_.view(part.words), [](const auto& word) { return is_axis(word.letter); });
     if (names_row && names_axis)
       report(Severity::Error, DiagnosticCode::WordRepeated, block_.written,
              "cycle 7 takes a row of the datum table or coordinates, not both");
@@ -387,19 +381,16 @@ class BlockCheck {
 }  // namespace
 
 bool has_effect(const Program& program, std::uint32_t index) {
-  const auto& statement = program.blocks()[index].statement;
-  if (const auto* label = std::get_if<klartext::LabelDefinition>(&statement))
+  const Block& block = program.blocks()[index];
+  if (const auto* label = block.as<klartext::LabelDefinition>())
     return label->label == Label(std::uint32_t{0});
-  if (std::holds_alternative<CyclePart>(statement))
-    return !neighbour(program, index, 1).has_value();
-  if (std::holds_alternative<klartext::BlankForm>(statement))
-    return may_have_blank_fault(program, program.blocks()[index]);
-  return !(is_comment(program.blocks()[index]) ||
-           std::holds_alternative<klartext::BeginProgram>(statement));
+  if (block.is<CyclePart>()) return !neighbour(program, index, 1).has_value();
+  if (block.is<klartext::BlankForm>()) return may_have_blank_fault(program, block);
+  return !is_comment(block) && !block.is<klartext::BeginProgram>();
 }
 
 std::uint32_t first_part(const Program& program, std::uint32_t index) {
-  if (!std::holds_alternative<CyclePart>(program.blocks()[index].statement)) return index;
+  if (!program.blocks()[index].is<CyclePart>()) return index;
   while (const auto before = neighbour(program, index, -1)) index = *before;
   return index;
 }
@@ -409,7 +400,7 @@ void check_system_needs(const Program& program, std::vector<Diagnostic>& diagnos
                                          "a touch probe in the spindle", "a touch before it"};
   std::optional<Given> given;
   for (const Block& block : program.blocks()) {
-    const auto* assignment = std::get_if<klartext::Assignment>(&block.statement);
+    const auto* assignment = block.as<klartext::Assignment>();
     if (assignment == nullptr || diagnostics.size() >= kMostFindings) continue;
     const auto address = system_address(program, assignment->value, Operator::SystemRead);
     if (!address) continue;

@@ -85,12 +85,15 @@ struct LinkedParts {
   std::vector<BoundCycle> cycles;       ///< of the blocks of cycles in Q parameters, in their order
   std::uint32_t counters = 0;           ///< cells for the REP of label calls, after constants
   std::uint32_t temporaries = 0;        ///< cells after the counters
-  std::unordered_map<std::string, std::uint32_t> named_labels;  ///< upper-case name, instruction
-  std::unordered_map<std::uint32_t, std::uint32_t> numbered_labels;
+  struct LabelPlace {
+    std::uint32_t instruction;  ///< after it
+    std::uint32_t block;
+  };
+  /// By the number, or by the name in capitals and quotes: `5`, `"END"`.
+  std::unordered_map<std::string, LabelPlace> labels;
 
-  /// The instruction after a label, or nothing.
-  std::optional<std::uint32_t> label(std::uint32_t number) const;
-  std::optional<std::uint32_t> label(std::string_view name) const;
+  /// The instruction after a label as it is written (`5`, `"End"`), or nothing.
+  std::optional<std::uint32_t> label(std::string_view written) const;
 };
 
 /// A program with labels, cycles and jumps resolved and its formulas lowered to flat code.
@@ -121,7 +124,9 @@ class LinkedProgram {
   std::optional<std::uint32_t> instruction_of(std::uint32_t block_number) const;
 
   /// As LinkedParts::label.
-  std::optional<std::uint32_t> label(auto label) const { return parts_.label(label); }
+  std::optional<std::uint32_t> label(std::string_view written) const {
+    return parts_.label(written);
+  }
 
  private:
   ControlPath path_;

@@ -1,5 +1,4 @@
 #include "nc/program/diagnose.hpp"
-#include "nc/program/link_check.hpp"
 #include "nc/program/lowering.hpp"
 #include "nc/program/program_cache.hpp"
 
@@ -62,8 +61,8 @@ class Linker {
   void link_block(std::uint32_t index, const Block& block) {
     writer_.begin_block(index);
     check_block(program_, index, file_.diagnostics);
-    if (const auto* label = std::get_if<klartext::LabelDefinition>(&block.statement))
-      define_label(block, label->label);
+    if (const auto* label = block.as<klartext::LabelDefinition>())
+      define_label(index, block, label->label);
     if (!has_effect(program_, index)) {
       writer_.count_block();
       return;
@@ -80,39 +79,18 @@ class Linker {
     writer_.at(skip).c = writer_.next();
   }
 
-  void define_label(const Block& block, const Label& label) {
+  void define_label(std::uint32_t index, const Block& block, const Label& label) {
     writer_.flush();
-    const auto* number = std::get_if<std::uint32_t>(&label);
-    if (number != nullptr && *number == 0) return;  // LBL 0 ends a subprogram, in many places
-    const bool is_new =
-        number != nullptr
-            ? parts_.numbered_labels.try_emplace(*number, writer_.next()).second
-            : parts_.named_labels
-                  .try_emplace(ascii_upper(program_.text(std::get<Text>(label))), writer_.next())
-                  .second;
+    if (label == Label(std::uint32_t{0})) return;  // it ends a subprogram, in many places
+    const std::string written = shown(label);
+    const auto [at, is_new] = parts_.labels.try_emplace(
+        ascii_upper(written), LinkedParts::LabelPlace{writer_.next(), index});
     if (is_new) return;
     report(Severity::Error, DiagnosticCode::LabelDuplicate, block,
-           fmt::format("label {} is defined twice: rename one of them", shown(label)));
-    if (const Block* first = first_definition(label)) {
-      const SourceRange range = program_.range(first->written);
-      file_.diagnostics.back().notes.push_back(
-          {fmt::format("label {} is also in line {}", shown(label), range.begin.line), range});
-    }
-  }
-
-  bool is_same(const Label& a, const Label& b) const {
-    const auto* first = std::get_if<Text>(&a);
-    const auto* second = std::get_if<Text>(&b);
-    if (first == nullptr || second == nullptr) return a == b;
-    return ascii_iequals(program_.text(*first), program_.text(*second));
-  }
-
-  const Block* first_definition(const Label& label) const {
-    for (const Block& block : program_.blocks()) {
-      const auto* defined = std::get_if<klartext::LabelDefinition>(&block.statement);
-      if (defined != nullptr && is_same(defined->label, label)) return &block;
-    }
-    return nullptr;
+           fmt::format("label {} is defined twice: rename one of them", written));
+    const SourceRange range = program_.range(program_.blocks()[at->second.block].written);
+    file_.diagnostics.back().notes.push_back(
+        {fmt::format("label {} is also in line {}", written, range.begin.line), range});
   }
 
   /// The known name that is near to another.
@@ -120,9 +98,9 @@ class Linker {
     SpellingHint hint(name);
     constexpr std::size_t kMostCompared = 1000;
     std::size_t compared = 0;
-    for (const auto& [known, at] : parts_.named_labels) {
+    for (const auto& [known, at] : parts_.labels) {
       if (++compared > kMostCompared) break;
-      hint.consider(known);
+      if (known.starts_with('"')) hint.consider(known.substr(1, known.size() - 2));
     }
     return hint;
   }
@@ -197,16 +175,10 @@ class Linker {
     jumps_.push_back({instruction, index, call.label});
   }
 
-  std::optional<std::uint32_t> resolve(const Label& label) const {
-    const auto* number = std::get_if<std::uint32_t>(&label);
-    return number != nullptr ? parts_.label(*number)
-                             : parts_.label(program_.text(std::get<Text>(label)));
-  }
-
   void resolve_jumps() {
     for (const Jump& jump : jumps_) {
       const Block& block = program_.blocks()[jump.block];
-      const auto target = resolve(jump.label);
+      const auto target = parts_.label(shown(jump.label));
       Instruction& instruction = writer_.at(jump.instruction);
       if (!target) {
         const auto* text = std::get_if<Text>(&jump.label);
@@ -227,7 +199,7 @@ class Linker {
       instruction.c = *target;
     }
     for (const auto& [block, label] : contours_)
-      if (!resolve(label))
+      if (!parts_.label(shown(label)))
         report(Severity::Warning, DiagnosticCode::LabelUnknown, *block,
                fmt::format("label {} is not defined in this program: the cycle that mills the "
                            "contour fails",
@@ -316,17 +288,10 @@ std::size_t memory_of(const LinkedParts& parts) {
   // A node of a hash table: its link, the hash of a name, and its word.
   constexpr std::size_t kNode = 4 * sizeof(void*);
   std::size_t bytes = bytes_of(parts.code) + bytes_of(parts.block_of) + bytes_of(parts.constants) +
-                      bytes_of(parts.cycles) +
-                      parts.numbered_labels.size() * (kNode + sizeof(std::uint64_t));
-  for (const auto& [name, at] : parts.named_labels)
+                      bytes_of(parts.cycles);
+  for (const auto& [name, at] : parts.labels)
     bytes += kNode + sizeof(name) + sizeof(at) + name.capacity();
   return bytes;
-}
-
-template <class Map, class Key>
-std::optional<std::uint32_t> lookup(const Map& map, const Key& key) {
-  const auto it = map.find(key);
-  return it == map.end() ? std::nullopt : std::optional(it->second);
 }
 
 }  // namespace
@@ -360,12 +325,9 @@ std::optional<std::uint32_t> LinkedProgram::instruction_of(std::uint32_t block_n
   return static_cast<std::uint32_t>(first - parts_.block_of.begin());
 }
 
-std::optional<std::uint32_t> LinkedParts::label(std::uint32_t number) const {
-  return lookup(numbered_labels, number);
-}
-
-std::optional<std::uint32_t> LinkedParts::label(std::string_view name) const {
-  return lookup(named_labels, ascii_upper(name));
+std::optional<std::uint32_t> LinkedParts::label(std::string_view written) const {
+  const auto at = labels.find(ascii_upper(written));
+  return at == labels.end() ? std::nullopt : std::optional(at->second.instruction);
 }
 
 }  // namespace fitgauge::interpreter

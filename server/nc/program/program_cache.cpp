@@ -2,7 +2,6 @@
 
 #include "nc/iso/parser.hpp"
 #include "nc/program/diagnose.hpp"
-#include "nc/program/link_check.hpp"
 #include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::interpreter {

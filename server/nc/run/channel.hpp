@@ -3,7 +3,6 @@
 #include "nc/run/contour.hpp"
 #include "nc/run/interpreter.hpp"
 #include "nc/run/machining.hpp"
-#include "nc/run/motion_words.hpp"
 #include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::interpreter {
@@ -54,7 +53,9 @@ NcError undefined_error(QRef parameter);
 /// The programs and subprograms that are being run, the main program first.
 class CallStack {
  public:
-  CallStack(std::shared_ptr<const LinkedProgram> main, const RunLimits& limits);
+  explicit CallStack(std::shared_ptr<const LinkedProgram> main) {
+    programs_.push_back({std::move(main), {}, 0});
+  }
 
   const LinkedProgram& program() const { return *programs_.back().program; }
   const LinkedProgram& main_program() const { return *programs_.front().program; }
@@ -91,8 +92,8 @@ class CallStack {
     std::size_t first_label = 0;  ///< of the returns that belong to this program
   };
 
-  const std::size_t label_depth_;
-  const std::size_t program_depth_;
+  static constexpr std::size_t kMostNested = 19;  ///< of subprograms, and of programs
+
   std::vector<Activation> programs_;
   std::vector<std::uint32_t> label_returns_;
 };
@@ -140,18 +141,9 @@ class FormattedPrinter {
   std::map<std::string, Known> masks_;     // by key
 };
 
-/// The mask's treatment of lines whose QS is undefined or empty.
-enum class EmptyLines : std::uint8_t {
-  Unspecified,  ///< an undefined QS is an error (decision 3)
-  Hide,         ///< M_EMPTY_HIDE: such lines are left out
-  Show          ///< M_EMPTY_SHOW: the value prints as nothing
-};
-
-/// One line of a mask with its values, or nothing when it is left out.
-/// @errors an undefined parameter, a character code out of range.
-NcResult<std::optional<std::string>> format_line(Channel& channel,
-                                                 const klartext::MaskFormat& format,
-                                                 EmptyLines empty);
+/// @errors those of its lines (an undefined parameter, a character code out of range), with their
+/// place in the mask; limit.
+NcResult<PrintedMask> run_mask(Channel& channel, const klartext::MaskFile& mask);
 
 /// Tables of a run: the freely definable table that FN 26 has open (one at a time), and the datum
 /// table. Each file is read once in a run. When the table is closed, the changes of FN 27 go to the
@@ -277,8 +269,9 @@ class Channel {
   Place before;
 
   Contour contour;
-  std::optional<SpatialAngles> spatial_angles;  ///< while A, B, C are angles of AXIS SPAT
-  bool turns_along_vector = false;              ///< PATHCTRL VECTOR
+  /// While A, B and C are angles of FUNCTION TCPM AXIS SPAT: each as it was programmed last.
+  std::optional<std::array<std::optional<double>, 3>> spatial_angles;
+  bool turns_along_vector = false;  ///< PATHCTRL VECTOR
   ActiveCycle active_cycle;
   /// Values of PREDEF, by the number of the Q parameter: mm, degrees, mm/min (GLOBAL DEF).
   std::map<int, double> predefined;

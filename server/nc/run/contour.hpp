@@ -16,7 +16,7 @@ struct SlContour {
 /// pocket, the other two an island; without RL and RR it is a pocket. An open contour is closed by
 /// a line.
 /// @errors those of its blocks; 1024 no such label, or it encloses nothing.
-NcResult<SlContour> read_contour(Channel& channel, const Label& label);
+NcResult<SlContour> read_contour(Channel& channel, std::uint32_t label);
 
 /// The contour as the tool mills along it.
 struct SlPath {

@@ -85,52 +85,41 @@ void add_limits(const Curve& curve, double reach, double y, std::vector<double>&
   }
 }
 
-class Clearing {
- public:
-  Clearing(const std::vector<SlContour>& contours, double reach, RunBudget& budget)
-      : contours_(contours), reach_(reach), budget_(budget) {}
-
-  NcResult<void> add_lanes(double y, bool is_back, std::vector<Lane>& lanes) {
-    TRY(budget_.check());
-    limits_.clear();
-    for (const SlContour& contour : contours_) {
-      for (const Curve& curve : contour.curves) add_limits(curve, reach_, y, limits_);
+bool is_clear(const std::vector<SlContour>& contours, double reach, Vec2 point) {
+  for (const SlContour& contour : contours) {
+    for (const Curve& curve : contour.curves) {
+      if (distance(curve, point) < reach) return false;
     }
-    std::sort(limits_.begin(), limits_.end());
-    const std::size_t before = lanes.size();
-    bool goes_on = false;
-    for (std::size_t i = 1; i < limits_.size(); ++i) {
-      TRY(budget_.check());
-      const double from = limits_[i - 1];
-      const double to = limits_[i];
-      if (to - from < tolerance::kSamePoint) continue;
-      const bool is_free = is_clear({(from + to) / 2, y});
-      if (is_free && goes_on) lanes.back().to.x = to;
-      if (is_free && !goes_on) lanes.push_back({{from, y}, {to, y}});
-      goes_on = is_free;
-    }
-    if (!is_back) return {};
-    const auto added = lanes.begin() + static_cast<std::ptrdiff_t>(before);
-    std::reverse(added, lanes.end());
-    std::for_each(added, lanes.end(), [](Lane& lane) { std::swap(lane.from, lane.to); });
-    return {};
   }
+  return is_in_material(contours, point);
+}
 
- private:
-  bool is_clear(Vec2 point) const {
-    for (const SlContour& contour : contours_) {
-      for (const Curve& curve : contour.curves) {
-        if (distance(curve, point) < reach_) return false;
-      }
-    }
-    return is_in_material(contours_, point);
+NcResult<void> add_lanes(const std::vector<SlContour>& contours, double reach, double y,
+                         bool is_back, RunBudget& budget, std::vector<Lane>& lanes) {
+  TRY(budget.check());
+  std::vector<double> limits;
+  for (const SlContour& contour : contours) {
+    for (const Curve& curve : contour.curves) add_limits(curve, reach, y, limits);
   }
-
-  const std::vector<SlContour>& contours_;
-  const double reach_;
-  RunBudget& budget_;
-  std::vector<double> limits_;
-};
+  std::ranges::sort(limits);
+  const std::size_t before = lanes.size();
+  bool goes_on = false;
+  for (std::size_t i = 1; i < limits.size(); ++i) {
+    TRY(budget.check());
+    const double from = limits[i - 1];
+    const double to = limits[i];
+    if (to - from < tolerance::kSamePoint) continue;
+    const bool is_free = is_clear(contours, reach, {(from + to) / 2, y});
+    if (is_free && goes_on) lanes.back().to.x = to;
+    if (is_free && !goes_on) lanes.push_back({{from, y}, {to, y}});
+    goes_on = is_free;
+  }
+  if (!is_back) return {};
+  const auto added = std::span(lanes).subspan(before);
+  std::ranges::reverse(added);
+  for (Lane& lane : added) std::swap(lane.from, lane.to);
+  return {};
+}
 
 /// Lanes along the main axis that clear the pockets around their islands, none nearer to a contour
 /// than `reach` and none further from the next than `spacing`, to and fro. A contour that crosses
@@ -154,48 +143,32 @@ NcResult<std::vector<Lane>> clearing_lanes(const std::vector<SlContour>& contour
   if (low > high) return lanes;
   // Whole steps, at most as long as the spacing; the first and last are next to the walls.
   const double steps = std::max(1.0, std::ceil((high - low) / spacing - tolerance::kNanometre));
-  Clearing clearing(contours, reach, budget);
   bool is_back = false;
   for (double step = 0; step <= steps; ++step) {
     const std::size_t before = lanes.size();
-    TRY(clearing.add_lanes(low + (high - low) * step / steps, is_back, lanes));
+    const double y = low + (high - low) * step / steps;
+    TRY(add_lanes(contours, reach, y, is_back, budget, lanes));
     if (lanes.size() > before) is_back = !is_back;
   }
   return lanes;
 }
-
-/// The heights of cycle 20, and how a cycle infeeds between them.
-struct Depths {
-  double surface;
-  double bottom;  ///< the floor allowance Q4 left where the cycle leaves it
-  double clearance;
-  double safe;    ///< Q7
-  double infeed;  ///< 0: at once
-
-  Depths(const MachiningDefinition& data, double infeed_of_cycle, bool leaves_floor)
-      : surface(data.value(5)),
-        bottom(surface + data.value(1)),
-        clearance(surface + data.value(6)),
-        safe(data.value(7)),
-        infeed(std::abs(infeed_of_cycle)) {
-    if (leaves_floor) bottom += data.value(4);
-  }
-  bool is_empty() const { return bottom >= surface; }
-};
 
 class ContourCycle {
  public:
   ContourCycle(Channel& channel, Machining& cycle)
       : channel_(channel),
         cycle_(cycle),
-        motion_(cycle),
         data_(*channel.active_cycle.contour_data),
         number_(cycle.definition.cycle->descriptor.number),
-        depths_(data_, cycle.value(10), number_ < 23) {}
+        surface_(data_.value(5)),
+        bottom_(surface_ + data_.value(1) + (number_ < 23 ? data_.value(4) : 0)),
+        clearance_(surface_ + data_.value(6)),
+        safe_(data_.value(7)),
+        infeed_(std::abs(cycle.value(10))) {}
 
   NcResult<void> run() {
-    if (depths_.is_empty()) return nc_error(1042, "Q1 leaves no depth");
-    for (const Label& label : channel_.active_cycle.contours) {
+    if (bottom_ >= surface_) return nc_error(1042, "Q1 leaves no depth");
+    for (const std::uint32_t label : channel_.active_cycle.contours) {
       auto contour = TRY(read_contour(channel_, label));
       contours_.push_back(std::move(contour));
     }
@@ -208,7 +181,7 @@ class ContourCycle {
  private:
   /// Returns the allowance on the side: Q14 for side finishing, otherwise Q3.
   double allowance() const { return number_ == 24 ? cycle_.value(14) : data_.value(3); }
-  double reach() const { return motion_.tool_radius() + allowance(); }
+  double reach() const { return cycle_.tool_radius() + allowance(); }
   bool is_climb() const { return (number_ == 24 ? cycle_.value(9) : data_.value(9)) >= 0; }
 
   /// Q208 of 22 and 23; 0 is the feed of milling.
@@ -218,18 +191,17 @@ class ContourCycle {
   }
 
   NcResult<void> go_over(Vec2 point) {
-    TRY(motion_.to_height(depths_.safe, Feed::rapid()));
-    TRY(motion_.to_point(point, Feed::rapid()));
-    return motion_.to_height(depths_.clearance, Feed::rapid());
+    TRY(cycle_.to_height(safe_, Feed::rapid()));
+    TRY(cycle_.to_point(point, Feed::rapid()));
+    return cycle_.to_height(clearance_, Feed::rapid());
   }
 
   /// Calls `cut` at each depth, the bottom last.
   template <class Cut>
   NcResult<void> at_each_depth(const Cut& cut) {
-    for (double depth = depths_.surface; depth != depths_.bottom;) {
-      const bool is_last =
-          depths_.infeed == 0 || std::abs(depths_.bottom - depth) <= depths_.infeed;
-      const double next = is_last ? depths_.bottom : depth - depths_.infeed;
+    for (double depth = surface_; depth != bottom_;) {
+      const bool is_last = infeed_ == 0 || std::abs(bottom_ - depth) <= infeed_;
+      const double next = is_last ? bottom_ : depth - infeed_;
       if (next == depth) return nc_error(1011, "the plunging depth Q10 is too small");
       depth = next;
       TRY(cut(depth));
@@ -241,11 +213,11 @@ class ContourCycle {
     const SlPath path = path_along(contour, reach(), is_climb());
     TRY(go_over(path.start));
     auto done = at_each_depth([&](double depth) -> NcResult<void> {
-      TRY(motion_.to_height(depth, cycle_.feed(11)));
+      TRY(cycle_.to_height(depth, cycle_.feed(11)));
       return follow(path);
     });
     if (!done) return done;
-    return motion_.to_height(depths_.safe, retraction());
+    return cycle_.to_height(safe_, retraction());
   }
 
   NcResult<void> follow(const SlPath& path) {
@@ -254,7 +226,7 @@ class ContourCycle {
     cutter.begin(path.start, path.side);
     for (const Curve& curve : path.curves) {
       TRY(channel_.budget.check());
-      Element element{motion_.plane(), curve, machine.position().linear, {}, cycle_.feed(12)};
+      Element element{cycle_.plane(), curve, machine.position().linear, {}, cycle_.feed(12)};
       element.side = path.side;
       set_plane_target(element, curve.end);
       TRY(cutter.add(machine, element));
@@ -264,16 +236,16 @@ class ContourCycle {
 
   /// Straight lanes over the inside, each depth after the other.
   NcResult<void> clear() {
-    const double spacing = data_.value(2) * motion_.tool_radius();
+    const double spacing = data_.value(2) * cycle_.tool_radius();
     if (spacing <= 0) return {};
     const auto lanes = TRY(clearing_lanes(contours_, reach(), spacing, channel_.budget));
     return at_each_depth([&](double depth) -> NcResult<void> {
       for (const Lane& lane : lanes) {
         TRY(go_over(lane.from));
-        TRY(motion_.to_height(depth, cycle_.feed(11)));
-        TRY(motion_.to_point(lane.to, cycle_.feed(12)));
+        TRY(cycle_.to_height(depth, cycle_.feed(11)));
+        TRY(cycle_.to_point(lane.to, cycle_.feed(12)));
       }
-      return lanes.empty() ? NcResult<void>() : motion_.to_height(depths_.safe, retraction());
+      return lanes.empty() ? NcResult<void>() : cycle_.to_height(safe_, retraction());
     });
   }
 
@@ -282,37 +254,40 @@ class ContourCycle {
     const Tool* tool = roughing_tool();
     if (tool == nullptr) return nc_error(1003, "Q13 is not the number of a tool");
     for (const SlContour& contour : contours_) {
-      const double reach = radius_in_plane(motion_.state(), tool->r + tool->dr) + data_.value(3);
+      const double reach = radius_in_plane(cycle_.state(), tool->r + tool->dr) + data_.value(3);
       TRY(go_over(path_along(contour, reach, is_climb()).start));
       TRY(peck());
-      TRY(motion_.to_height(depths_.safe, Feed::rapid()));
+      TRY(cycle_.to_height(safe_, Feed::rapid()));
     }
     return {};
   }
 
   NcResult<void> peck() {
-    const double above = advanced_stop(depths_.bottom - depths_.surface);
+    const double above = advanced_stop(bottom_ - surface_);
     return at_each_depth([&](double depth) -> NcResult<void> {
-      TRY(motion_.to_height(depth, cycle_.feed(11)));
-      if (depth == depths_.bottom) return {};
-      TRY(motion_.to_height(depths_.clearance, Feed::rapid()));
-      return motion_.to_height(depth + above, Feed::rapid());
+      TRY(cycle_.to_height(depth, cycle_.feed(11)));
+      if (depth == bottom_) return {};
+      TRY(cycle_.to_height(clearance_, Feed::rapid()));
+      return cycle_.to_height(depth + above, Feed::rapid());
     });
   }
 
   /// Q13, or the tool in the spindle.
   const Tool* roughing_tool() const {
     const auto number = static_cast<int>(cycle_.value(13));
-    if (number == 0) return motion_.state().active_tool();
-    return motion_.state().tools.find(number);
+    if (number == 0) return cycle_.state().active_tool();
+    return cycle_.state().tools.find(number);
   }
 
   Channel& channel_;
   Machining& cycle_;
-  ToolMotion& motion_;
   const MachiningDefinition data_;
   const int number_;
-  const Depths depths_;
+  const double surface_;
+  const double bottom_;  ///< the floor allowance Q4 left where the cycle leaves it
+  const double clearance_;
+  const double safe_;    ///< Q7
+  const double infeed_;  ///< 0: at once
   std::vector<SlContour> contours_;
 };
 

@@ -1,6 +1,6 @@
 #include "nc/run/cutter_path.hpp"
 
-#include "nc/run/motion_words.hpp"
+#include "nc/run/statements.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

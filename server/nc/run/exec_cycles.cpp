@@ -127,21 +127,10 @@ NcResult<void> run_probing(Channel& channel, const TouchProbeCycle& cycle, Argum
   return done;
 }
 
-NcResult<Arguments> arguments_of(Channel& channel, const klartext::Cycle& cycle,
-                                 const BoundCycle& bound) {
-  Arguments arguments(*bound.descriptor());
-  const auto parameters = channel.program().view(cycle.parameters);
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    auto value = TRY(cycle_argument(channel, parameters[i], *bound.parameters[i]));
-    arguments.set(bound.parameters[i]->id, std::move(value));
-  }
-  return arguments;
-}
-
 /// GLOBAL DEF: its values apply until the next one of its number, or the end of the run.
 NcResult<void> define_globally(Channel& channel, const klartext::Cycle& cycle,
                                const BoundCycle& bound) {
-  auto arguments = TRY(arguments_of(channel, cycle, bound));
+  auto arguments = TRY(cycle_arguments(channel, cycle, bound));
   TRY(arguments.complete());
   for (const CycleParameter& parameter : bound.global->parameters)
     channel.predefined[static_cast<int>(parameter.id)] = arguments.number(parameter.id);
@@ -188,11 +177,39 @@ NcResult<void> set_parameters(Channel& channel, const klartext::Cycle& cycle) {
   return {};
 }
 
+/// CYCL CALL POS moves there in the working plane. Its coordinate along the tool axis shifts the
+/// cycle like a datum. Old cycles, which begin at the present height, and programs also move along
+/// the tool axis.
+NcResult<Next> call_at_position(Channel& channel, const MotionWords& words) {
+  TRY(channel.contour.finish(channel.machine()));
+  AxisWords target;
+  for (const Axis axis : kAllAxes) {
+    const auto& word = words.axes[index(axis)];
+    if (word) target[axis] = word->after(channel.machine().position()[axis]);
+  }
+  auto* machining = std::get_if<MachiningDefinition>(&channel.active_cycle.definition);
+  const double surface = machining == nullptr ? 0 : machining->value(203);
+  const bool is_shifted = machining != nullptr && !machining->cycle->descriptor.dotted;
+  if (is_shifted) {
+    auto& height = target[channel.state().tool_axis()];
+    machining->values[203] = surface + height.value_or(0);
+    height.reset();
+    ToolMotion motion(channel.machine(), channel.budget);
+    const double clearance = machining->value(203) + machining->value(200);
+    if (motion.height() < machining->value(203)) TRY(motion.to_height(clearance, Feed::rapid()));
+  }
+  const auto feed = words.feed.value_or(Feed::rapid());
+  const auto moved = channel.machine().move({target, feed});
+  auto next = moved ? call_active_cycle(channel) : moved.error();
+  if (is_shifted) machining->values[203] = surface;
+  return next;
+}
+
 }  // namespace
 
 NcResult<Next> execute(Channel& channel, const klartext::Cycle& cycle, const BoundCycle& bound) {
   if (bound.probing != nullptr) {
-    auto arguments = TRY(arguments_of(channel, cycle, bound));
+    auto arguments = TRY(cycle_arguments(channel, cycle, bound));
     TRY(run_probing(channel, *bound.probing, std::move(arguments)));
   } else if (bound.machining != nullptr) {
     auto definition = TRY(machining_arguments(channel, cycle, bound));
@@ -225,38 +242,6 @@ NcResult<Next> execute_parts(Channel& channel, std::uint32_t first, std::uint32_
   }
   return Next{};
 }
-
-namespace {
-
-/// CYCL CALL POS moves there in the working plane. Its coordinate along the tool axis shifts the
-/// cycle like a datum. Old cycles, which begin at the present height, and programs also move along
-/// the tool axis.
-NcResult<Next> call_at_position(Channel& channel, const MotionWords& words) {
-  TRY(channel.contour.finish(channel.machine()));
-  AxisWords target;
-  for (const Axis axis : kAllAxes) {
-    const auto& word = words.axes[index(axis)];
-    if (word) target[axis] = word->after(channel.machine().position()[axis]);
-  }
-  auto* machining = std::get_if<MachiningDefinition>(&channel.active_cycle.definition);
-  const double surface = machining == nullptr ? 0 : machining->value(203);
-  const bool is_shifted = machining != nullptr && !machining->cycle->descriptor.dotted;
-  if (is_shifted) {
-    auto& height = target[channel.state().tool_axis()];
-    machining->values[203] = surface + height.value_or(0);
-    height.reset();
-    ToolMotion motion(channel.machine(), channel.budget);
-    const double clearance = machining->value(203) + machining->value(200);
-    if (motion.height() < machining->value(203)) TRY(motion.to_height(clearance, Feed::rapid()));
-  }
-  const auto feed = words.feed.value_or(Feed::rapid());
-  const auto moved = channel.machine().move({target, feed});
-  auto next = moved ? call_active_cycle(channel) : moved.error();
-  if (is_shifted) machining->values[203] = surface;
-  return next;
-}
-
-}  // namespace
 
 NcResult<Next> call_active_cycle(Channel& channel) {
   const auto& definition = channel.active_cycle.definition;

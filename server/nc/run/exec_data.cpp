@@ -1,5 +1,5 @@
 #include "nc/probing/touch/fits.hpp"
-#include "nc/program/link_check.hpp"
+#include "nc/program/diagnose.hpp"
 #include "nc/run/statements.hpp"
 
 namespace fitgauge::interpreter {
@@ -34,24 +34,12 @@ NcResult<QRef> after(QRef first, std::size_t count) {
 /// The instruction of a label that is named by a parameter: `LBL QS5`, `LBL Q0`.
 NcResult<std::uint32_t> find_label(Channel& channel, const Label& label) {
   const QRef parameter = std::get<QRef>(label);
-  std::string shown;
-  std::optional<std::uint32_t> found;
-  if (parameter.is_string()) {
-    const auto named = TRY(text(channel, parameter));
-    shown = fmt::format("\"{}\"", named);
-    found = channel.linked().label(std::string_view(named));
-  } else {
-    const auto numbered = TRY(whole(channel, parameter));
-    shown = std::to_string(numbered);
-    if (numbered > 0) found = channel.linked().label(static_cast<std::uint32_t>(numbered));
-  }
-  if (found) return *found;
+  const std::string shown = parameter.is_string()
+                                ? fmt::format("\"{}\"", TRY(text(channel, parameter)))
+                                : std::to_string(TRY(whole(channel, parameter)));
+  if (const auto found = channel.linked().label(shown)) return *found;
   return nc_error("label {} of {} is not defined in this program", shown, name(parameter));
 }
-
-using klartext::MaskControl;
-using klartext::MaskControlKind;
-using klartext::MaskLanguage;
 
 /// FN 15: output that a control collects during a program run.
 constexpr std::string_view kPrintFile = "%FN15RUN.A";
@@ -67,49 +55,6 @@ NcResult<std::string> printed(Channel& channel, const Expr& item) {
   if (text.back() == '.') text.pop_back();
   if (channel.options.decimal_comma) std::replace(text.begin(), text.end(), '.', ',');
   return (text.front() == '-' ? "" : "+") + text;
-}
-
-void apply(const MaskControl& control, PrintedMask& printed, EmptyLines& empty) {
-  switch (control.kind) {
-    case MaskControlKind::Close: printed.close = true; break;
-    case MaskControlKind::AppendMax:
-      printed.most_bytes = static_cast<std::size_t>(control.kilobytes) * 1024;
-      [[fallthrough]];
-    case MaskControlKind::Append: printed.append = true; break;
-    case MaskControlKind::Truncate: printed.truncate = true; break;
-    case MaskControlKind::EmptyHide: empty = EmptyLines::Hide; break;
-    case MaskControlKind::EmptyShow: empty = EmptyLines::Show; break;
-  }
-}
-
-/// @errors those of its lines, with their place in the mask; limit.
-NcResult<PrintedMask> run_mask(Channel& channel, const klartext::MaskFile& mask) {
-  PrintedMask printed;
-  EmptyLines empty = EmptyLines::Unspecified;
-  bool is_spoken = true;
-  std::size_t bytes = 0;
-  for (const klartext::MaskLine& line : mask.lines) {
-    TRY(channel.budget.check());
-    if (const auto* control = std::get_if<MaskControl>(&line.content)) {
-      apply(*control, printed, empty);
-    } else if (const auto* language = std::get_if<MaskLanguage>(&line.content)) {
-      is_spoken = *language == MaskLanguage::All || *language == channel.options.language;
-    } else if (is_spoken) {
-      const auto text = format_line(channel, std::get<klartext::MaskFormat>(line.content), empty);
-      if (!text) {
-        NcError error = text.error();
-        error.text = fmt::format("mask {} line {}: {}", mask.file_name, line.line, error.text);
-        return error;
-      }
-      if (!*text) continue;
-      bytes += (*text)->size() + 1;
-      // A short mask can make long lines: text beyond the budget is not stored at all.
-      if (bytes > channel.output.left()) return channel.output.charge(bytes).error();
-      // An escape `\n` in a line ends it.
-      for (const std::string_view part : split(**text, '\n')) printed.lines.emplace_back(part);
-    }
-  }
-  return printed;
 }
 
 /// A device that the simulated control does not have: `RS232:`, `PRINTER:`.

@@ -11,13 +11,8 @@ using PlaneWords = std::map<Letter, double>;
 
 NcResult<PlaneWords> read_plane_words(Channel& channel, Slice<Word> slice) {
   PlaneWords words;
-  for (const Word& word : channel.program().view(slice)) {
-    if (is_absent(word.value)) {
-      words[word.letter] = 1;
-      continue;
-    }
-    words[word.letter] = TRY(number(channel, word.value));
-  }
+  for (const Word& word : channel.program().view(slice))
+    words[word.letter] = is_absent(word.value) ? 1 : TRY(number(channel, word.value));
   return words;
 }
 

@@ -33,11 +33,6 @@ NcResult<void> read_written_tools(Channel& channel) {
   return {};
 }
 
-std::optional<Axis> tool_axis(const std::optional<klartext::Axis>& axis) {
-  if (!axis || *axis > klartext::Axis::Z) return std::nullopt;
-  return static_cast<Axis>(*axis);
-}
-
 using klartext::Motion;
 
 NcResult<void> note_entry(Channel& channel) {
@@ -96,7 +91,7 @@ NcResult<void> execute(Channel& channel, const klartext::ToolCall& call) {
     return nc_error(1079, "the tool axis is X, Y or Z");
   TRY(read_written_tools(channel));
   machine::ToolCall command;
-  command.axis = tool_axis(call.axis);
+  if (call.axis) command.axis = static_cast<Axis>(*call.axis);
   if (!is_absent(call.tool)) {
     command.number = TRY(tool_number(channel, call.tool));
     channel.prepared_tool = 0;

@@ -33,34 +33,29 @@ NcResult<Next> dispatch(Channel& channel, const Instruction& instruction,
   }
 }
 
-template <class... Kinds>
-bool is_one_of(const klartext::Statement& statement) {
-  return (std::holds_alternative<Kinds>(statement) || ...);
-}
-
 /// Whether a block may stand in the contour of an SL cycle: it programs the contour, computes, or
 /// transforms coordinates.
-bool may_stand_in_contour(const klartext::Statement& statement) {
-  if (const auto* part = std::get_if<klartext::CyclePart>(&statement)) {
+bool may_stand_in_contour(const klartext::Block& block) {
+  if (const auto* part = block.as<klartext::CyclePart>()) {
     constexpr std::array<int, 5> kTransformations{7, 8, 10, 11, 26};
     return std::count(kTransformations.begin(), kTransformations.end(), part->number) != 0;
   }
-  return is_one_of<klartext::Empty, klartext::Structure, klartext::Motion, klartext::MFunctions,
-                   klartext::LabelDefinition, klartext::LabelCall, klartext::ConditionalJump,
-                   klartext::Assignment, klartext::SetUndefined, klartext::CircleData,
-                   klartext::Trans>(statement);
+  return block
+      .is<klartext::Empty, klartext::Structure, klartext::Motion, klartext::MFunctions,
+          klartext::LabelDefinition, klartext::LabelCall, klartext::ConditionalJump,
+          klartext::Assignment, klartext::SetUndefined, klartext::CircleData, klartext::Trans>();
 }
 
 /// Runs the block of an Op::Statement.
 NcResult<Next> execute_statement(Channel& channel, const Instruction& instruction) {
-  const klartext::Statement& statement = channel.place().source().statement;
-  if (!std::holds_alternative<klartext::Motion>(statement)) {
+  const klartext::Block& block = channel.place().source();
+  if (!block.is<klartext::Motion>()) {
     TRY(channel.contour.finish(channel.machine()));
-    if (channel.contour.drawing() != nullptr && !may_stand_in_contour(statement))
+    if (channel.contour.drawing() != nullptr && !may_stand_in_contour(block))
       return nc_error("this block is not allowed in the contour of an SL cycle");
   }
-  auto next =
-      std::visit([&](const auto& kind) { return dispatch(channel, instruction, kind); }, statement);
+  auto next = std::visit([&](const auto& kind) { return dispatch(channel, instruction, kind); },
+                         block.statement);
   if (next && channel.stop_after_block)
     return NcError{FaultKind::Stop, 0, "measuring log shown on the screen"};
   return next;

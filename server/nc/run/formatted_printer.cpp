@@ -1,11 +1,14 @@
-#include "nc/run/values.hpp"
+#include "nc/run/statements.hpp"
 #include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
 
+using klartext::MaskControl;
+using klartext::MaskControlKind;
 using klartext::MaskConversion;
 using klartext::MaskKeyword;
+using klartext::MaskLanguage;
 using klartext::MaskPlaceholder;
 
 using Value = std::variant<double, std::string>;
@@ -40,14 +43,6 @@ std::string padded(std::string text, const MaskPlaceholder& placeholder, bool is
   return std::string(fill, ' ') + text;
 }
 
-/// Decimals of `%F` without a number of them, as in C.
-constexpr int kDefaultDecimals = 6;
-
-std::string float_text(double value, const MaskPlaceholder& placeholder) {
-  const int decimals = placeholder.decimals < 0 ? kDefaultDecimals : placeholder.decimals;
-  return padded(to_char(value, decimals), placeholder, true);
-}
-
 /// Truncates (decision 22); a precision is the least number of digits: `%02.2d`.
 std::string integer_text(double value, const MaskPlaceholder& placeholder) {
   std::string digits = fmt::format("{:.0f}", std::abs(std::trunc(value)));
@@ -60,14 +55,8 @@ std::string integer_text(double value, const MaskPlaceholder& placeholder) {
 NcResult<std::string> character_text(double value, const MaskPlaceholder& placeholder) {
   // Codes beyond Latin-1 are not in the code page of a control.
   if (value < 1 || value > 255) return nc_error("%C: {} is not a character code", value);
-  const auto code = static_cast<unsigned>(value);
   std::string text;
-  if (code < 0x80) {
-    text += static_cast<char>(code);
-  } else {
-    text += static_cast<char>(0xC0 | (code >> 6));
-    text += static_cast<char>(0x80 | (code & 0x3F));
-  }
+  append_utf8(text, static_cast<char32_t>(value));
   return padded(std::move(text), placeholder, false);
 }
 
@@ -80,19 +69,24 @@ std::string string_text(std::string text, const MaskPlaceholder& placeholder) {
 NcResult<std::string> formatted(const Value& value, const MaskPlaceholder& placeholder) {
   const auto* number = std::get_if<double>(&value);
   if (number == nullptr) return string_text(std::get<std::string>(value), placeholder);
+  constexpr int kDefaultDecimals = 6;  // of %F, as in C
+  const int decimals = placeholder.decimals;
   switch (placeholder.conversion) {
-    case MaskConversion::Float: return float_text(*number, placeholder);
+    case MaskConversion::Float:
+      return padded(to_char(*number, decimals < 0 ? kDefaultDecimals : decimals), placeholder,
+                    true);
     case MaskConversion::Integer: return integer_text(*number, placeholder);
     case MaskConversion::Character: return character_text(*number, placeholder);
     default: return string_text(to_char(*number, -1), placeholder);
   }
 }
 
-bool is_empty(const Channel& channel, QRef parameter) {
-  if (!parameter.is_string()) return false;
-  const std::string* text = channel.parameters.string(parameter.number);
-  return text == nullptr || text->empty();
-}
+/// The mask's treatment of lines whose QS is undefined or empty.
+enum class EmptyLines : std::uint8_t {
+  Unspecified,  ///< an undefined QS is an error (decision 3)
+  Hide,         ///< M_EMPTY_HIDE: such lines are left out
+  Show          ///< M_EMPTY_SHOW: the value prints as nothing
+};
 
 /// The value of a placeholder; nothing if its line is left out.
 NcResult<std::optional<Value>> value_of(Channel& channel, const MaskPlaceholder& placeholder,
@@ -100,16 +94,48 @@ NcResult<std::optional<Value>> value_of(Channel& channel, const MaskPlaceholder&
   if (const auto* keyword = std::get_if<MaskKeyword>(&placeholder.value))
     return std::optional(keyword_value(channel, *keyword));
   const QRef parameter = std::get<QRef>(placeholder.value);
-  if (empty != EmptyLines::Unspecified && is_empty(channel, parameter)) {
-    if (empty == EmptyLines::Hide) return std::optional<Value>();
-    return std::optional<Value>(std::string());
-  }
   if (parameter.is_string()) {
-    auto string = TRY(text(channel, parameter));
-    return std::optional<Value>(std::move(string));
+    const std::string* known = channel.parameters.string(parameter.number);
+    const bool is_empty = known == nullptr || known->empty();
+    if (is_empty && empty == EmptyLines::Hide) return std::optional<Value>();
+    if (is_empty && empty == EmptyLines::Show) return std::optional<Value>(std::string());
+    return std::optional<Value>(TRY(text(channel, parameter)));
   }
   const auto value = TRY(number(channel, parameter));
   return std::optional<Value>(value);
+}
+
+/// One line of a mask with its values, or nothing when it is left out.
+/// @errors an undefined parameter, a character code out of range.
+NcResult<std::optional<std::string>> format_line(Channel& channel,
+                                                 const klartext::MaskFormat& format,
+                                                 EmptyLines empty) {
+  std::string line;
+  for (const klartext::MaskPiece& piece : format.pieces) {
+    if (const auto* literal = std::get_if<std::string>(&piece)) {
+      line += *literal;
+      continue;
+    }
+    const auto& placeholder = std::get<MaskPlaceholder>(piece);
+    const auto value = TRY(value_of(channel, placeholder, empty));
+    if (!value) return std::optional<std::string>();
+    const auto text = TRY(formatted(*value, placeholder));
+    line += text;
+  }
+  return std::optional(std::move(line));
+}
+
+void apply(const MaskControl& control, PrintedMask& printed, EmptyLines& empty) {
+  switch (control.kind) {
+    case MaskControlKind::Close: printed.close = true; break;
+    case MaskControlKind::AppendMax:
+      printed.most_bytes = static_cast<std::size_t>(control.kilobytes) * 1024;
+      [[fallthrough]];
+    case MaskControlKind::Append: printed.append = true; break;
+    case MaskControlKind::Truncate: printed.truncate = true; break;
+    case MaskControlKind::EmptyHide: empty = EmptyLines::Hide; break;
+    case MaskControlKind::EmptyShow: empty = EmptyLines::Show; break;
+  }
 }
 
 }  // namespace
@@ -165,22 +191,33 @@ NcResult<void> FormattedPrinter::close() {
   return {};
 }
 
-NcResult<std::optional<std::string>> format_line(Channel& channel,
-                                                 const klartext::MaskFormat& format,
-                                                 EmptyLines empty) {
-  std::string line;
-  for (const klartext::MaskPiece& piece : format.pieces) {
-    if (const auto* literal = std::get_if<std::string>(&piece)) {
-      line += *literal;
-      continue;
+NcResult<PrintedMask> run_mask(Channel& channel, const klartext::MaskFile& mask) {
+  PrintedMask printed;
+  EmptyLines empty = EmptyLines::Unspecified;
+  bool is_spoken = true;
+  std::size_t bytes = 0;
+  for (const klartext::MaskLine& line : mask.lines) {
+    TRY(channel.budget.check());
+    if (const auto* control = std::get_if<MaskControl>(&line.content)) {
+      apply(*control, printed, empty);
+    } else if (const auto* language = std::get_if<MaskLanguage>(&line.content)) {
+      is_spoken = *language == MaskLanguage::All || *language == channel.options.language;
+    } else if (is_spoken) {
+      const auto text = format_line(channel, std::get<klartext::MaskFormat>(line.content), empty);
+      if (!text) {
+        NcError error = text.error();
+        error.text = fmt::format("mask {} line {}: {}", mask.file_name, line.line, error.text);
+        return error;
+      }
+      if (!*text) continue;
+      bytes += (*text)->size() + 1;
+      // A short mask can make long lines: text beyond the budget is not stored at all.
+      if (bytes > channel.output.left()) return channel.output.charge(bytes).error();
+      // An escape `\n` in a line ends it.
+      for (const std::string_view part : split(**text, '\n')) printed.lines.emplace_back(part);
     }
-    const auto& placeholder = std::get<MaskPlaceholder>(piece);
-    const auto value = TRY(value_of(channel, placeholder, empty));
-    if (!value) return std::optional<std::string>();
-    const auto text = TRY(formatted(*value, placeholder));
-    line += text;
   }
-  return std::optional(std::move(line));
+  return printed;
 }
 
 }  // namespace fitgauge::interpreter

@@ -87,16 +87,15 @@ Channel::Channel(std::shared_ptr<const LinkedProgram> main, const RunEnvironment
       output(run_options.limits.output_bytes),
       log(output, run_environment.observer),
       files(run_environment.disk, output, run_options.limits.files),
-      calls(std::move(main), run_options.limits),
+      calls(std::move(main)),
       printer(files, output),
       tables(files, parameters, allowance) {}
 
 std::vector<Place> Channel::chain() const {
   std::vector<Place> all = calls.behind_calls();
-  const bool is_jumped_to =
-      before.program == &linked() &&
-      std::holds_alternative<klartext::ErrorStop>(place().source().statement) &&
-      std::holds_alternative<klartext::ConditionalJump>(before.source().statement);
+  const bool is_jumped_to = before.program == &linked() &&
+                            place().source().is<klartext::ErrorStop>() &&
+                            before.source().is<klartext::ConditionalJump>();
   all.insert(all.begin(), is_jumped_to ? before : place());
   return all;
 }
@@ -145,11 +144,6 @@ NcResult<std::shared_ptr<const LinkedProgram>> Channel::load_program(const Contr
   return known = program;
 }
 
-CallStack::CallStack(std::shared_ptr<const LinkedProgram> main, const RunLimits& limits)
-    : label_depth_(limits.label_depth), program_depth_(limits.program_depth) {
-  programs_.push_back({std::move(main), {}, 0});
-}
-
 std::vector<Place> CallStack::behind_calls() const {
   std::vector<Place> all;
   const auto add = [&](const LinkedProgram& program, std::uint32_t instruction) {
@@ -166,8 +160,8 @@ std::vector<Place> CallStack::behind_calls() const {
 }
 
 NcResult<void> CallStack::call_label(std::uint32_t return_to) {
-  if (label_returns_.size() >= label_depth_)
-    return nc_error(1025, "more than {} subprograms call each other", label_depth_);
+  if (label_returns_.size() >= kMostNested)
+    return nc_error(1025, "more than {} subprograms call each other", kMostNested);
   label_returns_.push_back(return_to);
   return {};
 }
@@ -181,8 +175,8 @@ std::optional<std::uint32_t> CallStack::return_from_label() {
 
 NcResult<void> CallStack::call_program(std::shared_ptr<const LinkedProgram> program,
                                        Caller caller) {
-  if (programs_.size() > program_depth_)
-    return nc_error(1025, "more than {} programs call each other", program_depth_);
+  if (programs_.size() > kMostNested)
+    return nc_error(1025, "more than {} programs call each other", kMostNested);
   programs_.push_back({std::move(program), std::move(caller), label_returns_.size()});
   return {};
 }

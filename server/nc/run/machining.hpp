@@ -35,7 +35,7 @@ struct ActiveCycle {
   int number = -1;
   int last_probing = -1;
   std::vector<Vec3> pattern{};                        ///< PATTERN DEF: X, Y, and in Z its surface
-  std::vector<Label> contours{};                      ///< cycle 14
+  std::vector<std::uint32_t> contours{};              ///< labels of cycle 14
   std::optional<MachiningDefinition> contour_data{};  ///< cycle 20
 };
 
@@ -136,10 +136,9 @@ NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definit
 
 // machining_arguments.cpp
 
-/// The value of a cycle parameter in mm, mm/min and degrees; MAX is infinity, AUTO the feed of TOOL
-/// CALL, a text if the parameter accepts one. @errors decision 3.
-NcResult<ArgumentValue> cycle_argument(Channel& channel, const klartext::CycleParameter& written,
-                                       const CycleParameter& parameter);
+/// The values of a cycle in Q parameters, without its defaults. @errors decision 3.
+NcResult<Arguments> cycle_arguments(Channel& channel, const klartext::Cycle& cycle,
+                                    const BoundCycle& bound);
 
 /// The values of a machining cycle in Q parameters. @errors 1004, 1011 a value out of its range.
 NcResult<MachiningDefinition> machining_arguments(Channel& channel, const klartext::Cycle& cycle,
@@ -163,7 +162,7 @@ NcResult<Arguments> dotted_arguments(Channel& channel, const TouchProbeCycle& cy
                                      std::uint32_t first, std::uint32_t last);
 
 /// The labels of cycle 14.
-NcResult<std::vector<Label>> contour_labels(Channel& channel, std::uint32_t first,
-                                            std::uint32_t last);
+NcResult<std::vector<std::uint32_t>> contour_labels(Channel& channel, std::uint32_t first,
+                                                    std::uint32_t last);
 
 }  // namespace fitgauge::interpreter

@@ -1,4 +1,4 @@
-#include "nc/run/values.hpp"
+#include "nc/run/statements.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -22,14 +22,28 @@ NcResult<double> number_value(Channel& channel, const klartext::CycleParameter& 
   return feed;
 }
 
-/// Values of the active GLOBAL DEF, in mm, degrees or mm/min.
-NcResult<double> predefined_value(const Channel& channel, int parameter) {
-  const auto found = channel.predefined.find(parameter);
-  if (found != channel.predefined.end()) return found->second;
-  // Not null: the linker has refused parameters that no GLOBAL DEF has.
-  const CycleDescriptor& definition = *global_definition_of(parameter);
-  return nc_error(1017, "Q{} is PREDEF, but GLOBAL DEF {} {} is missing before it", parameter,
-                  definition.number, definition.name);
+/// The value of a cycle parameter in mm, mm/min and degrees; MAX is infinity, AUTO the feed of TOOL
+/// CALL, a text if the parameter accepts one. @errors decision 3.
+NcResult<ArgumentValue> cycle_argument(Channel& channel, const klartext::CycleParameter& written,
+                                       const CycleParameter& parameter) {
+  if (written.kind == CycleValue::Predef) {
+    const int number = written.parameter.number;
+    const auto found = channel.predefined.find(number);
+    if (found != channel.predefined.end()) return ArgumentValue(found->second);
+    // Not null: the linker has refused parameters that no GLOBAL DEF has.
+    const CycleDescriptor& definition = *global_definition_of(number);
+    return nc_error(1017, "Q{} is PREDEF, but GLOBAL DEF {} {} is missing before it", number,
+                    definition.number, definition.name);
+  }
+  if (auto value = literal(channel.program(), written, parameter)) return *std::move(value);
+  if (written.kind == CycleValue::Expression && is_text(written.value)) {
+    auto value = TRY(text(channel, written.value));
+    return ArgumentValue(std::move(value));
+  }
+  const auto value = TRY(number_value(channel, written));
+  const bool is_converted = written.kind != CycleValue::Expression;
+  const double scale = is_converted ? 1 : scale_of(parameter.unit, channel.linked().is_inch());
+  return ArgumentValue(value * scale);
 }
 
 /// A word of an old cycle in the current cycle. `scale`: 2 makes a diameter of a radius.
@@ -72,91 +86,6 @@ double unit_of(const Channel& channel, int parameter) {
   return is_feed ? kMillimetresPerInch / 10 : kMillimetresPerInch;
 }
 
-/// Reads one word of a sub-line after the other into the arguments of the cycle.
-class DottedReader {
- public:
-  DottedReader(Channel& channel, const CycleDescriptor& descriptor)
-      : channel_(channel), descriptor_(descriptor), arguments_(descriptor) {}
-
-  NcResult<void> read(const Word& word, int part) {
-    if (std::exchange(part_, part) != part) values_ = 0;
-    switch (word.letter) {
-      case Letter::Result: return read_result(word, part);
-      case Letter::F: return read_as(ParameterId::WordFeed, word, part);
-      case Letter::Mb: return read_as(ParameterId::WordRetract, word, part);
-      case Letter::Value: return read_value(word, part);
-      default: return is_axis(word.letter) ? read_axis(word, part) : NcResult<void>();
-    }
-  }
-
-  Arguments take() { return std::move(arguments_); }
-
- private:
-  const CycleParameter* find(ParameterId id, int part) const {
-    const auto* parameter = descriptor_.find(id);
-    return parameter != nullptr && parameter->part == part ? parameter : nullptr;
-  }
-
-  NcResult<void> set(const CycleParameter& parameter, const Word& word, double added = 0) {
-    const auto value = TRY(number(channel_, word.value));
-    const double scale = scale_of(parameter.unit, channel_.linked().is_inch());
-    arguments_.set(parameter.id, value * scale + added);
-    return {};
-  }
-
-  NcResult<void> read_as(ParameterId id, const Word& word, int part) {
-    const auto* parameter = find(id, part);
-    return parameter != nullptr ? set(*parameter, word) : NcResult<void>();
-  }
-
-  NcResult<void> read_result(const Word& word, int part) {
-    const auto* parameter = std::get_if<QRef>(&word.value);
-    if (parameter == nullptr || parameter->space != QSpace::Q)
-      return nc_error("the result of a touch-probe cycle must be a Q parameter");
-    if (find(ParameterId::WordResult, part) != nullptr)
-      arguments_.set(ParameterId::WordResult, static_cast<double>(parameter->number));
-    return {};
-  }
-
-  /// The name of the probing axis (`X-`, `X ANGLE`), or a coordinate.
-  NcResult<void> read_axis(const Word& word, int part) {
-    if (word.letter > Letter::Z)
-      return nc_error("a touch-probe cycle accepts only the axes X, Y and Z");
-    const auto axis = static_cast<int>(word.letter);
-    if (find(ParameterId::WordAxis, part) != nullptr) {
-      arguments_.set(ParameterId::WordAxis, static_cast<double>(axis));
-      const auto* direction = find(ParameterId::WordDirection, part);
-      return direction != nullptr ? set(*direction, word) : NcResult<void>();
-    }
-    const auto id = static_cast<ParameterId>(static_cast<int>(ParameterId::WordX) + axis);
-    const auto* parameter = find(id, part);
-    if (parameter == nullptr) return {};
-    // IX of cycle 4 is a component of the probing direction, elsewhere a distance from here.
-    const bool is_direction = descriptor_.number == 4;
-    const double here = channel_.machine().position().linear[static_cast<std::size_t>(axis)];
-    return set(*parameter, word, word.incremental && !is_direction ? here : 0);
-  }
-
-  /// A number after dialog text: the values of a sub-line have this order.
-  NcResult<void> read_value(const Word& word, int part) {
-    constexpr std::array kOrder{
-        ParameterId::WordAngle,     ParameterId::WordDistance, ParameterId::WordReferenceSystem,
-        ParameterId::WordErrorMode, ParameterId::WordCheck,    ParameterId::WordHeight,
-        ParameterId::WordTeeth};
-    while (values_ < kOrder.size()) {
-      const auto* parameter = find(kOrder[values_++], part);
-      if (parameter != nullptr) return set(*parameter, word);
-    }
-    return nc_error("sub-line {} of the cycle has a number too many", part);
-  }
-
-  Channel& channel_;
-  const CycleDescriptor& descriptor_;
-  Arguments arguments_;
-  int part_ = -1;
-  std::size_t values_ = 0;  ///< of the sub-line
-};
-
 }  // namespace
 
 std::vector<PartWord> words_of_parts(const Channel& channel, std::uint32_t first,
@@ -164,45 +93,32 @@ std::vector<PartWord> words_of_parts(const Channel& channel, std::uint32_t first
   std::vector<PartWord> all;
   const auto blocks = channel.program().blocks();
   for (std::uint32_t i = first; i <= last; ++i) {
-    const auto* part = std::get_if<klartext::CyclePart>(&blocks[i].statement);
+    const auto* part = blocks[i].as<klartext::CyclePart>();
     if (part == nullptr) continue;
     for (const Word& word : channel.program().view(part->words)) all.push_back({part->part, word});
   }
   return all;
 }
 
-NcResult<ArgumentValue> cycle_argument(Channel& channel, const klartext::CycleParameter& written,
-                                       const CycleParameter& parameter) {
-  if (written.kind == CycleValue::Predef) {
-    const auto value = TRY(predefined_value(channel, written.parameter.number));
-    return ArgumentValue(value);
+NcResult<Arguments> cycle_arguments(Channel& channel, const klartext::Cycle& cycle,
+                                    const BoundCycle& bound) {
+  Arguments arguments(*bound.descriptor());
+  const auto parameters = channel.program().view(cycle.parameters);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    auto value = TRY(cycle_argument(channel, parameters[i], *bound.parameters[i]));
+    arguments.set(bound.parameters[i]->id, std::move(value));
   }
-  if (auto value = literal(channel.program(), written, parameter)) return *std::move(value);
-  if (written.kind == CycleValue::Expression && is_text(written.value)) {
-    auto value = TRY(text(channel, written.value));
-    return ArgumentValue(std::move(value));
-  }
-  const auto value = TRY(number_value(channel, written));
-  const bool is_converted = written.kind != CycleValue::Expression;
-  const double scale = is_converted ? 1 : scale_of(parameter.unit, channel.linked().is_inch());
-  return ArgumentValue(value * scale);
+  return arguments;
 }
 
 NcResult<MachiningDefinition> machining_arguments(Channel& channel, const klartext::Cycle& cycle,
                                                   const BoundCycle& bound) {
-  const CycleDescriptor& descriptor = bound.machining->descriptor;
-  Arguments arguments(descriptor);
-  MachiningDefinition definition{.cycle = bound.machining};
-  const auto parameters = channel.program().view(cycle.parameters);
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const CycleParameter& parameter = *bound.parameters[i];
-    auto value = TRY(cycle_argument(channel, parameters[i], parameter));
-    if (!std::holds_alternative<std::monostate>(value))
-      definition.given.insert(static_cast<int>(parameter.id));
-    arguments.set(parameter.id, std::move(value));
-  }
+  auto arguments = TRY(cycle_arguments(channel, cycle, bound));
   TRY(arguments.complete());
-  for (const CycleParameter& parameter : descriptor.parameters) {
+  MachiningDefinition definition{.cycle = bound.machining};
+  for (const CycleParameter* parameter : bound.parameters)
+    definition.given.insert(static_cast<int>(parameter->id));
+  for (const CycleParameter& parameter : bound.machining->descriptor.parameters) {
     if (arguments.has_number(parameter.id)) {
       definition.values[static_cast<int>(parameter.id)] = arguments.number(parameter.id);
     } else if (const std::string* written = arguments.text(parameter.id)) {
@@ -235,19 +151,65 @@ NcResult<MachiningDefinition> machining_arguments(Channel& channel, const Machin
 
 NcResult<Arguments> dotted_arguments(Channel& channel, const TouchProbeCycle& cycle,
                                      std::uint32_t first, std::uint32_t last) {
-  DottedReader reader(channel, cycle.descriptor);
-  for (const auto& [part, word] : words_of_parts(channel, first, last))
-    TRY(reader.read(word, part));
-  return reader.take();
+  // Numbers after dialog text: the values of a sub-line have this order.
+  constexpr std::array kOrder{
+      ParameterId::WordAngle,     ParameterId::WordDistance, ParameterId::WordReferenceSystem,
+      ParameterId::WordErrorMode, ParameterId::WordCheck,    ParameterId::WordHeight,
+      ParameterId::WordTeeth};
+  Arguments arguments(cycle.descriptor);
+  int last_part = -1;
+  auto next = kOrder.begin();  // of the sub-line
+  for (const auto& [part, word] : words_of_parts(channel, first, last)) {
+    if (std::exchange(last_part, part) != part) next = kOrder.begin();
+    const auto has = [&, sub_line = part](ParameterId id) {
+      const auto* parameter = cycle.descriptor.find(id);
+      return parameter != nullptr && parameter->part == sub_line;
+    };
+    ParameterId id{};
+    double added = 0;
+    if (word.letter == Letter::Result) {
+      const auto* parameter = std::get_if<QRef>(&word.value);
+      if (parameter == nullptr || parameter->space != QSpace::Q)
+        return nc_error("the result of a touch-probe cycle must be a Q parameter");
+      if (has(ParameterId::WordResult))
+        arguments.set(ParameterId::WordResult, static_cast<double>(parameter->number));
+      continue;
+    }
+    if (is_axis(word.letter)) {  // the name of the probing axis (`X-`, `X ANGLE`), or a coordinate
+      if (word.letter > Letter::Z)
+        return nc_error("a touch-probe cycle accepts only the axes X, Y and Z");
+      const auto axis = static_cast<int>(word.letter);
+      id = static_cast<ParameterId>(static_cast<int>(ParameterId::WordX) + axis);
+      if (has(ParameterId::WordAxis)) {
+        arguments.set(ParameterId::WordAxis, static_cast<double>(axis));
+        id = ParameterId::WordDirection;
+      } else if (word.incremental && cycle.descriptor.number != 4) {
+        // IX of cycle 4 is a component of the probing direction, elsewhere a distance from here.
+        added = channel.machine().position().linear[static_cast<std::size_t>(axis)];
+      }
+    } else if (word.letter == Letter::Value) {
+      next = std::find_if(next, kOrder.end(), has);
+      if (next == kOrder.end())
+        return nc_error("sub-line {} of the cycle has a number too many", part);
+      id = *next++;
+    } else if (word.letter == Letter::F || word.letter == Letter::Mb) {
+      id = word.letter == Letter::F ? ParameterId::WordFeed : ParameterId::WordRetract;
+    }
+    if (!has(id)) continue;
+    const auto value = TRY(number(channel, word.value));
+    const double scale = scale_of(cycle.descriptor.find(id)->unit, channel.linked().is_inch());
+    arguments.set(id, value * scale + added);
+  }
+  return arguments;
 }
 
-NcResult<std::vector<Label>> contour_labels(Channel& channel, std::uint32_t first,
-                                            std::uint32_t last) {
-  std::vector<Label> labels;
+NcResult<std::vector<std::uint32_t>> contour_labels(Channel& channel, std::uint32_t first,
+                                                    std::uint32_t last) {
+  std::vector<std::uint32_t> labels;
   for (const auto& [part, word] : words_of_parts(channel, first, last)) {
     if (part == 0 || word.letter != Letter::Value) continue;
     const auto label = TRY(whole(channel, word.value));
-    labels.emplace_back(static_cast<std::uint32_t>(std::max(0, label)));
+    labels.push_back(static_cast<std::uint32_t>(std::max(0, label)));
   }
   if (labels.empty()) return nc_error(1017, "CYCL DEF 14 names no label");
   return labels;

@@ -1,8 +1,7 @@
-#include "nc/run/motion_words.hpp"
+#include "nc/run/statements.hpp"
 
 #include "nc/klartext/block_reader.hpp"
 #include "nc/program/diagnose.hpp"
-#include "nc/run/statements.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -49,7 +48,8 @@ NcResult<void> stand_along(Channel& channel, const Vec3& direction, MotionWords&
   return {};
 }
 
-NcResult<void> turn_by_angles(Channel& channel, SpatialAngles& angles, MotionWords& words) {
+NcResult<void> turn_by_angles(Channel& channel, MotionWords& words) {
+  auto& angles = *channel.spatial_angles;
   bool turns = false;
   for (std::size_t letter = 0; letter < 3; ++letter) {
     const auto& word = words.axes[letter + 3];
@@ -71,26 +71,6 @@ NcResult<void> turn_by_angles(Channel& channel, SpatialAngles& angles, MotionWor
   const Axis tool_axis = channel.state().tool_axis();
   return stand_along(channel, Matrix3::spatial(spatial) * unit_vector(tool_axis), words);
 }
-
-}  // namespace
-
-NcResult<Feed> read_feed(Channel& channel, const Word& word) {
-  if (word.letter == Letter::Ft || word.letter == Letter::FMaxT)
-    return nc_error("FT and FMAXT, the time of a block, are not available: give the feed F");
-  if (word.letter == Letter::FMax) return Feed::rapid();
-  if (word.letter == Letter::FAuto) return Feed::at(channel.contour.tool_feed);
-  const auto value = TRY(number(channel, word.value));
-  const double unit = channel.length_unit();
-  if (word.letter == Letter::Fu) return Feed::at(feed_of_revolutions(channel, value * unit));
-  if (word.letter == Letter::Fz)
-    return Feed::at(feed_of_revolutions(channel, value * unit * teeth(channel)));
-  if (channel.contour.feed_per_revolution)
-    return Feed::at(feed_of_revolutions(channel, value * unit));
-  // In INCH programs F counts tenths of an inch a minute.
-  return Feed::at(channel.linked().is_inch() ? value * unit / 10 : value);
-}
-
-namespace {
 
 NcResult<void> read_coordinate(Channel& channel, const Word& word, double unit,
                                std::optional<Coordinate>& target) {
@@ -165,6 +145,22 @@ NcResult<void> read_word(Channel& channel, const Word& word, MotionWords& out) {
 
 }  // namespace
 
+NcResult<Feed> read_feed(Channel& channel, const Word& word) {
+  if (word.letter == Letter::Ft || word.letter == Letter::FMaxT)
+    return nc_error("FT and FMAXT, the time of a block, are not available: give the feed F");
+  if (word.letter == Letter::FMax) return Feed::rapid();
+  if (word.letter == Letter::FAuto) return Feed::at(channel.contour.tool_feed);
+  const auto value = TRY(number(channel, word.value));
+  const double unit = channel.length_unit();
+  if (word.letter == Letter::Fu) return Feed::at(feed_of_revolutions(channel, value * unit));
+  if (word.letter == Letter::Fz)
+    return Feed::at(feed_of_revolutions(channel, value * unit * teeth(channel)));
+  if (channel.contour.feed_per_revolution)
+    return Feed::at(feed_of_revolutions(channel, value * unit));
+  // In INCH programs F counts tenths of an inch a minute.
+  return Feed::at(channel.linked().is_inch() ? value * unit / 10 : value);
+}
+
 bool MotionWords::names_axes() const {
   return pr || pa || std::ranges::any_of(axes, [](const auto& axis) { return axis.has_value(); });
 }
@@ -175,9 +171,7 @@ bool MotionWords::has_m(int number) const {
 
 NcResult<Axis> machine_axis(Letter letter) {
   if (letter <= Letter::C) return static_cast<Axis>(letter);
-  constexpr std::string_view kNames = "XYZABCUVW";
-  return make_fault(machine::FaultKind::AxisMissing,
-                    kNames.substr(static_cast<std::size_t>(letter), 1));
+  return make_fault(machine::FaultKind::AxisMissing, klartext::spelling(letter));
 }
 
 NcResult<MotionWords> read_words(Channel& channel, Slice<Word> words) {
@@ -263,8 +257,7 @@ NcResult<void> orient_tool(Channel& channel, const klartext::Motion& motion, Mot
     return channel.note(
         "LN: the tool vector TX TY TZ turns the tool with M128 or FUNCTION TCPM only");
   }
-  return follows && channel.spatial_angles ? turn_by_angles(channel, *channel.spatial_angles, words)
-                                           : NcResult<void>();
+  return follows && channel.spatial_angles ? turn_by_angles(channel, words) : NcResult<void>();
 }
 
 }  // namespace fitgauge::interpreter

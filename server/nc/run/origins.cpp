@@ -8,11 +8,6 @@ namespace {
 
 using klartext::Block;
 
-template <class T>
-const T* as(const Block& block) {
-  return std::get_if<T>(&block.statement);
-}
-
 std::span<const Word> words_of(const Program& program, const Block& block) {
   const auto words = [](const auto& statement) -> Slice<Word> {
     if constexpr (requires { statement.words; }) return statement.words;
@@ -35,9 +30,9 @@ std::vector<QRef> read_by(const Program& program, const Block& block, const std:
   std::vector<QRef> all;
   std::vector<QRef> named;
   for (const Word& word : words_of(program, block)) read(program, word.value, all);
-  if (const auto* set = as<klartext::Assignment>(block)) read(program, set->value, all);
-  if (const auto* jump = as<klartext::ConditionalJump>(block)) read(program, jump->condition, all);
-  if (const auto* cycle = as<klartext::Cycle>(block)) {
+  if (const auto* set = block.as<klartext::Assignment>()) read(program, set->value, all);
+  if (const auto* jump = block.as<klartext::ConditionalJump>()) read(program, jump->condition, all);
+  if (const auto* cycle = block.as<klartext::Cycle>()) {
     for (const auto& each : program.view(cycle->parameters))
       read(program, each.value, error.find(name(each.parameter) + " ") == error.npos ? all : named);
   }
@@ -45,13 +40,13 @@ std::vector<QRef> read_by(const Program& program, const Block& block, const std:
 }
 
 const CycleDescriptor* descriptor_of(const Block& block) {
-  const auto* cycle = as<klartext::Cycle>(block);
+  const auto* cycle = block.as<klartext::Cycle>();
   return cycle == nullptr ? nullptr : cycle_of(cycle->family, cycle->number);
 }
 
 bool sets(const Program&, const Block& block, QRef parameter) {
-  if (const auto* set = as<klartext::Assignment>(block)) return set->target == parameter;
-  if (const auto* table = as<klartext::TableRead>(block)) return table->first == parameter;
+  if (const auto* set = block.as<klartext::Assignment>()) return set->target == parameter;
+  if (const auto* table = block.as<klartext::TableRead>()) return table->first == parameter;
   const auto* known = descriptor_of(block);
   return known != nullptr && std::ranges::any_of(known->results, [&](const auto& each) {
            return parameter == QRef{QSpace::Q, each.q};
@@ -60,8 +55,8 @@ bool sets(const Program&, const Block& block, QRef parameter) {
 
 /// Another datum or rotation, or other data of the probe and the axes.
 bool sets_datum(const Program&, const Block& block) {
-  if (as<klartext::Trans>(block) != nullptr || as<klartext::Plane>(block) != nullptr) return true;
-  if (const auto* part = as<klartext::CyclePart>(block))
+  if (block.is<klartext::Trans, klartext::Plane>()) return true;
+  if (const auto* part = block.as<klartext::CyclePart>())
     return part->part > 0 && part->family == klartext::CycleFamily::CyclDef &&
            dotted_setting(part->number) != nullptr && part->number != 9 && part->number != 32;
   using enum probing::CycleKind;
@@ -73,7 +68,7 @@ bool sets_datum(const Program&, const Block& block) {
 /// Whether another part of the program ends there: at M2, M30 and LBL 0, and at the label of
 /// `call`.
 bool begins_part(const Program& program, const Block& block, const klartext::LabelCall* call) {
-  const auto* label = as<klartext::LabelDefinition>(block);
+  const auto* label = block.as<klartext::LabelDefinition>();
   if (label == nullptr)
     return std::ranges::any_of(words_of(program, block), [](const Word& word) {
       return word.letter == Letter::M && (word.value == Expr(2.0) || word.value == Expr(30.0));
@@ -86,13 +81,12 @@ bool begins_part(const Program& program, const Block& block, const klartext::Lab
 bool moves(const Block& block, const std::string& error) {
   for (const std::string_view other : {"not available", "defined", "missing"})
     if (error.find(other) != error.npos) return false;
-  return as<klartext::Motion>(block) != nullptr || as<klartext::CycleCall>(block) != nullptr ||
-         as<klartext::Cycle>(block) != nullptr || as<klartext::CyclePart>(block) != nullptr;
+  return block.is<klartext::Motion, klartext::CycleCall, klartext::Cycle, klartext::CyclePart>();
 }
 
 /// Whether the block calls the machining cycle that is defined.
 bool calls_cycle(const Program& program, const Block& block) {
-  return as<klartext::CycleCall>(block) != nullptr ||
+  return block.is<klartext::CycleCall>() ||
          std::ranges::any_of(words_of(program, block), [](const Word& word) {
            return word.letter == Letter::M &&
                   (word.value == Expr(99.0) || word.value == Expr(89.0));
@@ -101,10 +95,9 @@ bool calls_cycle(const Program& program, const Block& block) {
 
 /// Whether the block itself says where an axis goes.
 bool names_axis(const Program& program, const Block& block, Letter axis) {
-  const auto* part = as<klartext::CyclePart>(block);
+  const auto* part = block.as<klartext::CyclePart>();
   const bool probes = part != nullptr && part->family == klartext::CycleFamily::TchProbe;
-  return (probes || as<klartext::Motion>(block) != nullptr ||
-          as<klartext::CycleCall>(block) != nullptr) &&
+  return (probes || block.is<klartext::Motion, klartext::CycleCall>()) &&
          std::ranges::any_of(words_of(program, block), [=](const Word& word) {
            const bool is_polar = word.letter == Letter::Pr || word.letter == Letter::Pa;
            return (word.letter == axis && !word.argument) || (is_polar && axis != Letter::Z);
@@ -135,7 +128,7 @@ bool writes_preset(const Program&, const Block& block) {
 
 /// Whether it reads data of the control, such as FN 18 of a position.
 bool reads_control(const Program& program, const Block& block) {
-  const auto* set = as<klartext::Assignment>(block);
+  const auto* set = block.as<klartext::Assignment>();
   const auto* node = set == nullptr ? nullptr : std::get_if<NodeIndex>(&set->value);
   return node != nullptr && program.node(*node).op == Operator::SystemRead;
 }
@@ -213,24 +206,24 @@ class Origins {
   /// The call that has led to the part, or null.
   const klartext::LabelCall* call_of(const Position& at) const {
     const auto blocks = program(at).blocks();
-    if (!at.calls.empty()) return as<klartext::LabelCall>(blocks[at.calls.back()]);
+    if (!at.calls.empty()) return blocks[at.calls.back()].as<klartext::LabelCall>();
     const std::size_t caller = at.at + 1;
     if (caller == chain_.size() || chain_[caller].program != chain_[at.at].program) return nullptr;
     const auto call = call_before(caller);
-    return call ? as<klartext::LabelCall>(blocks[*call]) : nullptr;
+    return call ? blocks[*call].as<klartext::LabelCall>() : nullptr;
   }
   /// The LBL 0 of the subprogram that a block calls by its number.
   std::optional<std::uint32_t> end_of_call(const Position& at, const Block& block) {
-    const auto* call = as<klartext::LabelCall>(block);
+    const auto* call = block.as<klartext::LabelCall>();
     const auto* number = call != nullptr && klartext::is_absent(call->repeat)
                              ? std::get_if<0>(&call->label)
                              : nullptr;
     const LinkedProgram& linked = *chain_[at.at].program;
-    const auto first = number != nullptr ? linked.label(*number) : std::nullopt;
+    const auto first = number != nullptr ? linked.label(std::to_string(*number)) : std::nullopt;
     if (!first) return std::nullopt;
     const auto blocks = linked.program().blocks();
     for (std::uint32_t i = linked.block_of(*first); i < blocks.size() && left_ > 0; ++i, --left_) {
-      const auto* label = as<klartext::LabelDefinition>(blocks[i]);
+      const auto* label = blocks[i].as<klartext::LabelDefinition>();
       if (label != nullptr && label->label == Label(0U)) return i;
     }
     return std::nullopt;
@@ -239,7 +232,7 @@ class Origins {
   std::optional<std::uint32_t> call_before(std::size_t at) const {
     const auto blocks = chain_[at].program->program().blocks();
     for (std::uint32_t i = chain_[at].index; i-- > 0;)
-      if (as<klartext::LabelCall>(blocks[i]) != nullptr) return i;
+      if (blocks[i].is<klartext::LabelCall>()) return i;
     return std::nullopt;
   }
 
@@ -257,14 +250,14 @@ std::vector<DiagnosticNote> find_origins(std::span<const Place> chain, const NcE
   const std::string text = error != nullptr ? error->text : "";
   const int number = error != nullptr ? error->number : 0;
   const auto calls_tool = [](const auto&, const Block& each) {
-    return as<klartext::ToolCall>(each) != nullptr;
+    return each.is<klartext::ToolCall>();
   };
   // Tool axis is missing, tool not defined, no touch probe, no teeth.
   if (number == 1001 || number == 1092 || number == 1093 || number == 1109) {
     origins.find("tool", failed, calls_tool);
     return std::move(origins.notes);
   }
-  if (as<klartext::ConditionalJump>(block) != nullptr) origins.note("condition", chain.front());
+  if (block.is<klartext::ConditionalJump>()) origins.note("condition", chain.front());
   std::optional<Origins::Position> moved;
   if (moves(block, text)) moved = failed;
   constexpr std::size_t kMostFollowed = 24;
@@ -285,7 +278,7 @@ std::vector<DiagnosticNote> find_origins(std::span<const Place> chain, const NcE
         name(parameter), reader,
         [parameter](const auto& in, const Block& each) { return sets(in, each, parameter); });
     if (!setter) continue;
-    if (as<klartext::Assignment>(origins.block(*setter)) != nullptr) follow(*setter);
+    if (origins.block(*setter).is<klartext::Assignment>()) follow(*setter);
     read_control(*setter);
   }
   if (error == nullptr) read_control(failed);
@@ -293,7 +286,7 @@ std::vector<DiagnosticNote> find_origins(std::span<const Place> chain, const NcE
     origins.find("datum", failed, sets_datum);
   if (number == 1004 || !moved) return std::move(origins.notes);
   // A cycle in Q parameters measures where these say.
-  const bool is_cycle = as<klartext::Cycle>(origins.block(*moved)) != nullptr;
+  const bool is_cycle = origins.block(*moved).is<klartext::Cycle>();
   bool has_cycle = false;
   for (const Letter axis : {Letter::X, Letter::Y, Letter::Z}) {
     if (error == nullptr && is_cycle) break;
@@ -323,7 +316,7 @@ std::vector<DiagnosticNote> origins_of_values(std::span<const Place> chain) {
   const Program& program = chain.front().program->program();
   const Block& block = chain.front().source();
   const auto* known = descriptor_of(block);
-  const auto* part = as<klartext::CyclePart>(block);
+  const auto* part = block.as<klartext::CyclePart>();
   const bool measures = (known != nullptr && !known->results.empty()) ||
                         (part != nullptr && part->family == klartext::CycleFamily::TchProbe);
   if (!measures && !reads_control(program, block)) return {};

@@ -1,5 +1,5 @@
 #include "nc/klartext/block_reader.hpp"
-#include "nc/run/values.hpp"
+#include "nc/run/statements.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -10,12 +10,8 @@ using klartext::Path;
 bool corner_follows(const Channel& channel) {
   const auto blocks = channel.program().blocks();
   for (std::size_t i = channel.block + 1; i < blocks.size(); ++i) {
-    const auto& statement = blocks[i].statement;
-    if (std::holds_alternative<klartext::Empty>(statement) ||
-        std::holds_alternative<klartext::Structure>(statement)) {
-      continue;
-    }
-    const auto* motion = std::get_if<klartext::Motion>(&statement);
+    if (blocks[i].is<klartext::Empty, klartext::Structure>()) continue;
+    const auto* motion = blocks[i].as<klartext::Motion>();
     if (motion == nullptr || (blocks[i].skip && channel.options.block_skip)) return false;
     return motion->path == Path::Rnd || motion->path == Path::Chf;
   }

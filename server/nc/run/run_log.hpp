@@ -127,13 +127,10 @@ class RunObserver {
   virtual void ends() {}
 };
 
-/// Budget of one run. A run above one of these limits ends with LimitExceeded. The two depths are
-/// limits of the control (error 1025).
+/// Budget of one run. A run above one of these limits ends with LimitExceeded.
 struct RunLimits {
   std::uint64_t blocks = 1'000'000;
   std::chrono::duration<double> time{10.0};         ///< of the wall clock
-  std::size_t label_depth = 19;                     ///< subprograms nested by CALL LBL
-  std::size_t program_depth = 19;                   ///< programs nested by CALL PGM
   std::size_t output_bytes = std::size_t{4} << 20;  ///< screen, files, messages and records
   std::size_t files = 100;                          ///< written
   /// Memory of the run: programs, tables, masks, presets, files, records, its trace.

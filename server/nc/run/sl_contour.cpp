@@ -75,19 +75,14 @@ void begin_in_the_middle(std::vector<Curve>& curves) {
   curves.push_back(last);
 }
 
-std::optional<std::uint32_t> find_label(const Channel& channel, const Label& label) {
-  const auto* number = std::get_if<std::uint32_t>(&label);
-  return number == nullptr ? std::nullopt : channel.linked().label(*number);
-}
-
 bool are_the_same(const Frames& a, const Frames& b) {
   return a.datum_shift() == b.datum_shift() && a.mirror() == b.mirror() &&
          a.rotation() == b.rotation() && a.scaling() == b.scaling();
 }
 
 /// Transformations apply only in the subprogram.
-NcResult<SlDrawing> draw(Channel& channel, const Label& label) {
-  const auto first = find_label(channel, label);
+NcResult<SlDrawing> draw(Channel& channel, std::uint32_t label) {
+  const auto first = channel.linked().label(std::to_string(label));
   if (!first) return nc_error(1024, "a contour label of cycle 14 is not defined in this program");
   const Frames frames = channel.state().frames;
   const Contour path = std::exchange(channel.contour, Contour());
@@ -105,7 +100,7 @@ NcResult<SlDrawing> draw(Channel& channel, const Label& label) {
 
 }  // namespace
 
-NcResult<SlContour> read_contour(Channel& channel, const Label& label) {
+NcResult<SlContour> read_contour(Channel& channel, std::uint32_t label) {
   auto drawing = TRY(draw(channel, label));
   SlContour contour;
   contour.curves = drawing.curves();
@@ -117,7 +112,7 @@ NcResult<SlContour> read_contour(Channel& channel, const Label& label) {
   }
   const double enclosed = area(curves);
   if (std::abs(enclosed) < tolerance::kSamePoint)
-    return nc_error(1024, "contour label {} encloses nothing", std::get<std::uint32_t>(label));
+    return nc_error(1024, "contour label {} encloses nothing", label);
   contour.is_pocket = drawing.side() * enclosed >= 0;
   return contour;
 }

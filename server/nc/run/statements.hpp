@@ -1,9 +1,140 @@
 #pragma once
 
-#include "nc/run/values.hpp"
+#include "nc/run/channel.hpp"
 
-/// One function for each kind of block; a family is in one exec_* file.
+/// The parts of blocks as values of a run, and one function for each kind of block; a family is in
+/// one exec_* file.
 namespace fitgauge::interpreter {
+
+// values.cpp
+/// The values of the operands of a block, in the program that runs. Reading an undefined parameter
+/// is an error that names it (decision 3); the executor adds the block.
+
+NcResult<double> number(Channel& channel, const Expr& expr);
+/// Returns a coordinate of a positioning block. An undefined parameter leaves its axis out
+/// (decision 18).
+NcResult<std::optional<double>> coordinate(Channel& channel, const Expr& expr);
+/// A number that must be whole and between two bounds, both included. @errors 1011.
+NcResult<int> whole_in(Channel& channel, const Expr& expr, int least, int most);
+/// A whole number in the range of int. @errors 1011.
+NcResult<int> whole(Channel& channel, const Expr& expr);
+
+NcResult<std::string> text(Channel& channel, const Expr& expr);
+
+/// A node of Equal, NotEqual, Greater, Less, IsDefined, IsUndefined.
+NcResult<bool> condition(Channel& channel, NodeIndex index);
+
+/// The numeric value of an inner node.
+NcResult<double> evaluate(Channel& channel, NodeIndex index);
+
+/// A number as TOCHAR writes it: with that many decimals, or without a number of them (-1) up to 6
+/// without trailing zeros (decision 22).
+std::string to_char(double value, int decimals);
+
+/// The three letters of a month (1 to 12) as STR_MONTH of FN 16 prints them.
+std::string_view month_name(int month);
+
+// system_data.cpp
+/// FN 18: SYSREAD. Always metric, in INCH programs too.
+/// @errors an ID or NR this control does not have (decision 3), no such tool, preset or axis.
+NcResult<double> read_system_data(Channel& channel, NodeIndex address);
+
+/// FN 17: SYSWRITE of ID50 (tool table), ID500 (datum table) and ID503 (preset table).
+NcResult<void> write_system_data(Channel& channel, NodeIndex address, double value);
+
+enum class ToolWrite : std::uint8_t {
+  Done,
+  Unknown,    ///< no column has that number
+  OutOfRange  ///< the column has whole numbers, and this is not one
+};
+/// Writes a column of tool.t by the NR of FN 17 and FN 18 ID50.
+ToolWrite set_tool_value(machine::Tool& tool, std::int64_t nr, double value);
+
+/// Notes a written L, R, DL or DR of a lathe tool, which counts its lengths by toolturn.trn.
+NcResult<void> note_lathe_value(Channel& channel, const machine::Tool& tool, std::int64_t nr);
+
+/// Returns whether a cell is Q108 to Q111, Q113 or Q114, to which the control gives a value. They
+/// are undefined until a program reads them or calls a tool.
+constexpr bool is_preassigned(std::uint32_t cell) {
+  return cell >= kFirstQ + 108 && cell <= kFirstQ + 114 && cell != kFirstQ + 112;
+}
+
+/// Sets them to the values of the active tool, spindle, coolant and unit. Call it after a change of
+/// these.
+void update_preassigned(Channel& channel);
+
+/// Q120 to Q122: the rotary positions that PLANE or cycle 19 has computed, in degrees.
+void set_plane_angles(Channel& channel, const machine::Vec3& rotary);
+
+// motion_words.cpp, positioning.cpp
+/// A number that may be relative to the end of the last block.
+struct Coordinate {
+  double value = 0;
+  bool incremental = false;
+
+  double after(double last) const { return incremental ? last + value : value; }
+};
+
+/// An M function with its words: `M140 MB50 F750`, `M128 F1000`.
+struct MCall {
+  int number = 0;
+  std::optional<double> length{};        ///< MB, mm
+  bool to_limit = false;                 ///< MB MAX
+  std::optional<machine::Feed> feed{};   ///< of M140
+  const ControlPath* program = nullptr;  ///< its replacement in the setup
+};
+
+/// The words of a positioning block as numbers, in mm, degrees and mm/min.
+struct MotionWords {
+  std::array<std::optional<Coordinate>, machine::kAxes> axes;
+  std::optional<Coordinate> pr;
+  std::optional<Coordinate> pa;
+  std::optional<double> r;
+  std::optional<double> len;
+  std::optional<double> cca;
+  std::optional<double> chamfer;
+  std::optional<machine::Feed> feed;  ///< written in the block
+  std::vector<MCall> m;
+
+  bool names_axes() const;
+  bool has_m(int number) const;
+};
+
+/// @errors an axis that the machine does not have, an unavailable M function; decision 18 applies
+///   to coordinates, decision 3 to all others.
+NcResult<MotionWords> read_words(Channel& channel, Slice<Word> words);
+
+/// F, FMAX, FAUTO, FU or FZ as mm/min. @errors FT and FMAXT.
+NcResult<machine::Feed> read_feed(Channel& channel, const Word& word);
+
+/// The feed of a block: its word, which becomes modal unless it is FMAX, or the modal feed.
+NcResult<machine::Feed> use_feed(Channel& channel, const std::optional<machine::Feed>& written);
+
+/// Moves along one positioning block, or keeps what its next blocks decide.
+NcResult<void> position(Channel& channel, const klartext::Motion& motion, const MotionWords& words);
+
+/// @errors AxisMissing for U, V, W, which the simulated machine does not have.
+NcResult<machine::Axis> machine_axis(Letter letter);
+
+/// Returns the positions turned by whole turns into the ranges of the axes, each nearest to `from`.
+std::optional<machine::Vec3> in_range(const machine::MachineState& state, machine::Vec3 rotary,
+                                      const machine::Vec3& from);
+
+/// Positions of the rotary axes that point the tool along `normal`, a unit vector fixed to the
+/// table: in their ranges and the nearest to `from`, in machine coordinates.
+std::optional<machine::Vec3> rotary_along(const machine::MachineState& state,
+                                          const machine::Vec3& normal, const machine::Vec3& from);
+
+/// TX TY TZ or NX NY NZ of an LN block, by their first letter. @errors it has no length.
+NcResult<std::optional<machine::Vec3>> vector_of(Channel& channel, const klartext::Motion& motion,
+                                                 Letter first);
+
+/// Adds the positions of the rotary axes to a block that defines the tool's direction in the input
+/// system: LN by its tool vector, else by its normal, any line by spatial angles. Of the positions
+/// in the range of the axes the nearest is used.
+/// @errors 1013 no position of the axes reaches it; a vector without length; the first block under
+///   AXIS SPAT that turns the tool omits an angle.
+NcResult<void> orient_tool(Channel& channel, const klartext::Motion& motion, MotionWords& words);
 
 /// The next step of the run after a block.
 struct Next {
@@ -86,18 +217,9 @@ NcResult<void> execute(Channel& channel, const klartext::Plane& plane);
 NcResult<void> execute(Channel& channel, const klartext::FunctionTcpm& tcpm);
 
 // frame_commands.cpp
-using AxisCoordinates = std::array<std::optional<Coordinate>, machine::kAxes>;
-
-/// Axes that are not named keep their shift.
-NcResult<void> shift_datum(Channel& channel, const AxisCoordinates& axes);
 /// A row of the datum table; blank cells keep their axis.
 NcResult<void> shift_datum_to_row(Channel& channel, std::int64_t row);
 NcResult<void> reset_datum_shift(Channel& channel);
-/// Exactly the named axes are mirrored.
-NcResult<void> mirror(Channel& channel, const std::array<bool, 3>& axes);
-NcResult<void> rotate(Channel& channel, const Coordinate& angle);
-/// @errors 1011 a factor that is not positive.
-NcResult<void> scale(Channel& channel, const machine::Scaling& scaling);
 
 /// Moves of PLANE that bring the rotary axes to a tilted plane.
 struct PlaneMoves {
@@ -116,14 +238,6 @@ struct PlaneMoves {
 NcResult<void> tilt(Channel& channel, const machine::Matrix3& rotation, const PlaneMoves& moves);
 /// Moves all rotary axes to the position 0, by the word of PLANE.
 NcResult<void> reset_tilt(Channel& channel, const PlaneMoves& moves);
-
-// transformation_cycles.cpp
-/// The axis words of a transformation with their values, in mm and degrees; other words are
-/// ignored. Decision 3 applies: an undefined parameter is an error.
-NcResult<AxisCoordinates> read_axis_words(Channel& channel, std::span<const Word> words);
-
-/// X, Y and Z of a mirror. @errors for other axes.
-NcResult<std::array<bool, 3>> mirrored_axes(std::span<const Word> words);
 
 /// The cycles of CYCL DEF that are written in sub-lines and act when they are read: 7 datum shift,
 /// 8 mirror, 9 dwell, 10 rotation, 11 scaling, 12 program call, 13 orientation, 19 working plane,

@@ -1,5 +1,5 @@
-#include "nc/program/link_check.hpp"
-#include "nc/run/values.hpp"
+#include "nc/program/diagnose.hpp"
+#include "nc/run/statements.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -56,6 +56,13 @@ Answer exists(const Channel& channel, const Address& address) {
                       : channel.files.revision(*path).has_value();
 }
 
+/// Whether the block of the active cycle has the parameter Q IDX (NR 103).
+Answer gives(const Channel& channel, const Address& address) {
+  const auto* machining = std::get_if<MachiningDefinition>(&channel.active_cycle.definition);
+  if (machining == nullptr || !address.index) return std::nullopt;
+  return machining->gives(*address.index);
+}
+
 /// A row of tool.t; row 0, which every table has, is the empty spindle.
 const Tool* find_tool(const MachineState& state, int number) {
   static const Tool kNoTool;
@@ -68,12 +75,22 @@ NcError no_tool(int number) { return nc_error(1092, "tool {} is not in the tool 
 Answer tool_data(const MachineState& state, const Address& address) {
   const Tool* tool = find_tool(state, address.index.value_or(state.tool.number));
   if (tool == nullptr) return std::nullopt;
-  if (address.nr < 24 || address.nr > 26) return tool_value(*tool, address.nr);
-  // CAL_OF1, CAL_OF2, CAL_ANG: of a probe, in its row of tchprobe.tp.
+  if (const machine::ToolColumn* column = machine::tool_column(address.nr))
+    return column->whole != nullptr ? tool->*column->whole : tool->*column->number;
   const machine::ProbeRow* probe = state.probes.find(tool->probe);
-  if (probe == nullptr) return std::nullopt;
-  if (address.nr == 24) return probe->cal_of1;
-  return address.nr == 25 ? probe->cal_of2 : probe->cal_ang;
+  switch (address.nr) {
+    case 7: return tool->locked;
+    case 18: return !tool->clockwise;
+    case 24: return probe == nullptr ? std::nullopt : Answer(probe->cal_of1);
+    case 25: return probe == nullptr ? std::nullopt : Answer(probe->cal_of2);
+    case 26: return probe == nullptr ? std::nullopt : Answer(probe->cal_ang);
+    default: return std::nullopt;
+  }
+}
+
+double offset_of(const machine::PresetFrame& frame, Axis axis) {
+  const std::size_t i = index(axis);
+  return is_rotary(axis) ? frame.rotary_offsets_deg[i - 3] : frame.origin[i];
 }
 
 double position_data(const MachineState& state, Axis axis, CoordinateSystem system) {
@@ -82,124 +99,32 @@ double position_data(const MachineState& state, Axis axis, CoordinateSystem syst
   return std::round(state.position(system)[axis] * steps) / steps + 0.0;
 }
 
-/// Data of the touch probe in the spindle.
-Answer probe_data(const MachineState& state, const Address& address) {
-  const auto probe = state.probe_system();
-  if (!probe) return std::nullopt;
-  const machine::ProbeRow& row = probe->data;
-  const bool is_second = address.index == 2;
-  switch (address.nr) {
-    case 10: return axis_number(state.tool_axis());
-    case 11: return probe->radius;
-    case 12: return probe->length;
-    case 14: return is_second ? row.cal_of2 : row.cal_of1;
-    case 15: return row.cal_ang;
-    case 50:  // IDX1: the type's number, which TYPE does not give; IDX2: the row of tchprobe.tp
-      return is_second ? row.number : 0;
-    case 51: return probe->length;
-    case 52:  // IDX2: the rounding radius, which a ball does not have
-      return is_second ? 0 : probe->radius;
-    case 53: return is_second ? row.cal_of2 : row.cal_of1;
-    case 54: return row.cal_ang;
-    case 55: return is_second ? row.feed : row.rapid;
-    case 56: return is_second ? row.set_up : row.distance;
-    case 57: return row.track ? 1 : 0;
-    default: return std::nullopt;
-  }
-}
-
-constexpr int key(int id, int nr) { return id * 1000 + nr; }
-
-/// Data of an axis, by IDX.
-Answer axis_data(const Channel& channel, const Address& address) {
-  const auto axis = axis_of(address);
-  if (!axis) return std::nullopt;
-  const MachineState& state = channel.state();
-  const auto& frames = state.frames;
-  const auto& touch = channel.last_touch;
-  const auto& range = state.ranges[index(*axis)];
-  const bool is_rotary = machine::is_rotary(*axis);
-  const std::size_t i = index(*axis) - (is_rotary ? 3 : 0);
-  const auto of_linear = [&](const Vec3& values) {
-    return is_rotary ? std::nullopt : Answer(values[i]);
-  };
-  switch (key(address.id, address.nr)) {
-    case key(210, 5): return of_linear(frames.plane() ? frames.plane()->spatial_deg : Vec3{});
-    case key(220, 2): return frames.datum_shift()[*axis];
-    case key(220, 3):
-      return is_rotary ? frames.preset().rotary_offsets_deg[i] : frames.preset().origin[i];
-    case key(220, 4): return 0;  // no PLC shift
-    case key(230, 2): return range ? Answer(range->min) : std::nullopt;
-    case key(230, 3): return range ? Answer(range->max) : std::nullopt;
-    case key(240, 1):
-    case key(240, 8): return position_data(state, *axis, CoordinateSystem::Reference);  // as M91
-    case key(270, 1): return position_data(state, *axis, CoordinateSystem::Input);
-    case key(350, 20): return of_linear(state.tt.centre);
-    case key(360, 1): return touch ? of_linear(touch->surface) : std::nullopt;
-    case key(360, 2): return touch ? Answer(touch->nose[*axis]) : std::nullopt;
-    case key(360, 3): return touch ? of_linear(touch->tip) : std::nullopt;
-    default: return std::nullopt;
-  }
-}
+constexpr std::int64_t key(int id, int nr) { return std::int64_t{id} * 1000 + nr; }
 
 Answer find(const Channel& channel, const Address& address) {
   const MachineState& state = channel.state();
+  if (address.id == 50) return tool_data(state, address);
+  if (address.nr < 0 || address.nr > 999) return std::nullopt;
   const Frames& frames = state.frames;
   const Modes& modes = state.modes;
+  const auto probe = address.id == 350 ? state.probe_system() : std::nullopt;
+  const auto& touch = channel.last_touch;
+  const bool is_second = address.index == 2;
   const auto axis = axis_of(address);
+  const std::size_t i = axis ? index(*axis) : 0;
+  const auto& range = state.ranges[i];
+  const auto has = [&](int last, SystemNeed need) {
+    const bool is_axis = last > 0 && last <= static_cast<int>(kAxes);
+    return (!is_axis || (axis && i < static_cast<std::size_t>(last))) &&
+           (need != SystemNeed::Probe || probe) && (need != SystemNeed::Touch || touch);
+  };
   switch (key(address.id, address.nr)) {
-    case key(10, 1): return channel.calls.main_program().is_inch();
-    case key(10, 3): return channel.active_cycle.number;
-    case key(10, 6): return channel.active_cycle.last_probing;
-    case key(10, 8): return channel.calls.caller() != nullptr && channel.calls.caller()->is_inch();
-    case key(10, 103): {  // whether the block of the active cycle has the parameter Q IDX
-      const auto* machining = std::get_if<MachiningDefinition>(&channel.active_cycle.definition);
-      if (machining == nullptr || !address.index) return std::nullopt;
-      return machining->gives(*address.index);
-    }
-    case key(10, 110):
-    case key(10, 111): return exists(channel, address);
-    case key(20, 1):
-    case key(60, 1): return state.tool.number;
-    case key(20, 2): return channel.prepared_tool;
-    case key(20, 3):
-    case key(60, 2): return axis_number(state.tool.axis);
-    case key(20, 4):
-    case key(60, 3): return modes.spindle_rpm;
-    case key(20, 5): return static_cast<int>(modes.spindle);
-    case key(20, 8): return modes.coolant;
-    case key(20, 9): return modes.feed_mm_min;
-    case key(20, 11): return 0;  // no indexed tools
-    case key(60, 4): return state.tool.dl;
-    case key(60, 5): return state.tool.dr;
-    case key(60, 6): return 0;  // automatic TOOL CALL off
-    case key(60, 7): return state.tool.dr2;
-    case key(200, 1): return state.tool_radius();
-    case key(200, 2): return state.tool_length();
-    case key(210, 1): return frames.preset().basic_rotation_deg.z;
-    case key(210, 2): return frames.rotation().angle_deg;
-    case key(210, 3):
-      return (frames.mirror()[0] ? 1 : 0) + (frames.mirror()[1] ? 2 : 0) +
-             (frames.mirror()[2] ? 4 : 0);
-    case key(210, 4): return axis && !is_rotary(*axis) ? frames.scaling().factor[index(*axis)] : 1;
-    case key(210, 6): return frames.is_tilted() ? -1 : 0;
-    case key(210, 7): return 0;  // not tilted in Manual
-    case key(230, 5): return 1;  // the limits are active
-    case key(280, 1):
-    case key(310, 128): return modes.tcpm ? -1 : 0;
-    case key(280, 2): return modes.feed_mm_min;
-    case key(310, 116): return modes.feed_at_circumference ? -1 : 0;
-    case key(310, 144): return modes.kinematics_in_display ? -1 : 0;
-    case key(320, 1): return std::floor(static_cast<double>(channel.now().nanoseconds) / 1e9);
-    case key(350, 21): return state.tt.radius;
-    case key(505, 1): return channel.tables.has_datum_table();
-    case key(990, 6): return 0;   // cycle 3 probes with the touch probe
-    case key(990, 16): return 0;  // no block scan
-    default: break;
+#define FITGAUGE_DATA(id, nr, last, need, value) \
+  case key(id, nr):                              \
+    return has(last, SystemNeed::need) ? Answer(value) : std::nullopt;
+#include "nc/program/system_data.inc"
+    default: return std::nullopt;
   }
-  if (address.id == 50) return tool_data(state, address);
-  return address.id == 350 && address.nr != 20 ? probe_data(state, address)
-                                               : axis_data(channel, address);
 }
 
 /// ID500: the datum table, NR is the row.
@@ -215,8 +140,7 @@ NcResult<double> preset_data(const MachineState& state, const Address& address) 
   const machine::Preset* preset = state.presets.find(address.nr);
   const auto axis = axis_of(address);
   if (preset == nullptr || !axis) return unknown(address);
-  const std::size_t i = index(*axis);
-  return is_rotary(*axis) ? preset->frame.rotary_offsets_deg[i - 3] : preset->frame.origin[i];
+  return offset_of(preset->frame, *axis);
 }
 
 NcResult<void> write_tool(Channel& channel, const Address& address, double value) {
@@ -255,10 +179,9 @@ NcResult<void> write_preset(Channel& channel, const Address& address, double val
 
 NcResult<double> read_system_data(Channel& channel, NodeIndex node) {
   const auto address = TRY(read_address(channel, node));
-  if (!has_system_data(address.id, address.nr, false)) return unknown(address);
   if (address.id == 500) return datum_data(channel, address);
   if (address.id == 502 || address.id == 503) return preset_data(channel.state(), address);
-  if (address.id == 50) {
+  if (address.id == 50 && has_system_data(50, address.nr, false)) {
     const MachineState& state = channel.state();
     const auto number = address.index.value_or(state.tool.number);
     if (find_tool(state, number) == nullptr) return no_tool(number);
@@ -283,6 +206,50 @@ NcResult<void> write_system_data(Channel& channel, NodeIndex node, double value)
     case 503: return write_preset(channel, address, value);
     default: return unknown(address);
   }
+}
+
+ToolWrite set_tool_value(Tool& tool, std::int64_t nr, double value) {
+  const machine::ToolColumn* column = machine::tool_column(nr);
+  if (column != nullptr && column->whole != nullptr) {
+    if (!(value >= 0 && value <= column->most) || value != std::floor(value))
+      return ToolWrite::OutOfRange;
+    tool.*column->whole = static_cast<int>(value);
+  } else if (column != nullptr) {
+    tool.*column->number = value;
+  } else if (nr == 7) {
+    tool.locked = value != 0;
+  } else if (nr == 18) {
+    tool.clockwise = value == 0;
+  } else {
+    return ToolWrite::Unknown;
+  }
+  return ToolWrite::Done;
+}
+
+NcResult<void> note_lathe_value(Channel& channel, const Tool& tool, std::int64_t nr) {
+  const bool is_length = nr == 1 || nr == 2 || nr == 4 || nr == 5;
+  if (!tool.lathe || !is_length) return {};
+  return channel.note(
+      "tool {} is a lathe tool: {} has no effect, since ZL, XL, DZL and DXL are its lengths",
+      tool.number, machine::tool_column(nr)->name);
+}
+
+void update_preassigned(Channel& channel) {
+  const MachineState& state = channel.state();
+  QParameters& q = channel.parameters;
+  const bool is_inch = channel.calls.main_program().is_inch();
+  const double unit = is_inch ? 25.4 : 1.0;
+  q.set_q(108, state.tool_radius() / unit);
+  q.set_q(109, state.tool.axis ? static_cast<double>(index(*state.tool.axis)) : -1);
+  q.set_q(110, static_cast<int>(state.modes.spindle));
+  q.set_q(111, state.modes.coolant ? 1 : 0);
+  q.set_q(113, is_inch ? 1 : 0);
+  q.set_q(114, state.tool_length() / unit);
+}
+
+void set_plane_angles(Channel& channel, const Vec3& rotary) {
+  for (std::uint16_t i = 0; i < 3; ++i)
+    channel.parameters.set_q(static_cast<std::uint16_t>(120 + i), rotary[i]);
 }
 
 }  // namespace fitgauge::interpreter

@@ -1,4 +1,4 @@
-#include "nc/run/values.hpp"
+#include "nc/run/statements.hpp"
 #include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::interpreter {
@@ -123,10 +123,11 @@ NcResult<void> TableAccess::write(QRef first, std::int64_t row, std::string_view
                                             *parameters_.number(parameter) /
                                                 unit_of(table, column, length_unit));
     if (!set) return nc_error("table {}: {}", open_->path.text(), set.error().message);
-    if (const std::int64_t nr = tool_column(column); nr != 0 && is_tool_table) {
-      const double unit =
-          is_tool_length(nr) && table.header().unit == "INCH" ? kMillimetresPerInch : 1;
-      tool_cells_.push_back({static_cast<int>(row), nr, *table.number(row, column) * unit});
+    for (const machine::ToolColumn& known : machine::tool_columns()) {
+      if (!is_tool_table || known.nr == 0 || !ascii_iequals(known.name, column)) continue;
+      const bool is_inch = known.is_length && table.header().unit == "INCH";
+      const double unit = is_inch ? kMillimetresPerInch : 1;
+      tool_cells_.push_back({static_cast<int>(row), known.nr, *table.number(row, column) * unit});
     }
   }
   return {};

@@ -1,4 +1,5 @@
-#include "nc/run/values.hpp"
+#include "nc/run/statements.hpp"
+#include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -19,31 +20,149 @@ NcResult<double> arithmetic(Channel& channel, NodeIndex index) {
   return result;
 }
 
-/// A column that is a whole number from 0.
-struct WholeColumn {
-  std::int64_t nr;
-  std::string_view name;
-  int Tool::*value;
-  int most;
-};
+using Operands = std::span<const Expr>;
 
-constexpr WholeColumn kWholeColumns[] = {
-    {8, "RT", &Tool::replacement, 32'767},
-    {15, "CUT", &Tool::teeth, 1000},
-    {36, "TYP", &Tool::type, 999},
-};
+/// Maximum bytes of the characters of a string parameter.
+constexpr std::size_t kLongestText = 4 * kLongestString;
+/// Digits that TOCHAR gives at most.
+constexpr int kMostDecimals = 15;
 
-template <class Columns>
-auto column(const Columns& columns, std::int64_t nr) {
-  const auto* it = std::ranges::find_if(columns, [nr](const auto& each) { return each.nr == nr; });
-  return nr == 0 || it == std::end(columns) ? nullptr : it;
+/// A position or length given as a number: decimals are cut off, as INT does. @errors 1011
+/// negative.
+NcResult<std::size_t> count(Channel& channel, const Expr& expr, std::size_t otherwise) {
+  if (is_absent(expr)) return otherwise;
+  const auto value = TRY(number(channel, expr));
+  if (value < 0 || value > 1e9) return nc_error(1011, "{} is not a position in a text", value);
+  return static_cast<std::size_t>(value);
 }
 
-template <class Columns>
-std::int64_t number_of(const Columns& columns, std::string_view name) {
-  const auto* it = std::ranges::find_if(
-      columns, [&](const auto& entry) { return ascii_iequals(entry.name, name); });
-  return it == std::end(columns) ? 0 : it->nr;
+NcResult<std::string> concatenate(Channel& channel, Operands operands) {
+  std::string joined;
+  for (const Expr& operand : operands) {
+    auto part = TRY(text(channel, operand));
+    joined += part;
+    if (joined.size() > kLongestText) return nc_error("a text has more than 255 characters");
+  }
+  return joined;
+}
+
+NcResult<std::string> number_text(Channel& channel, Operands operands) {
+  const auto value = TRY(number(channel, operands[0]));
+  if (is_absent(operands[1])) return to_char(value, -1);
+  const auto decimals = TRY(whole_in(channel, operands[1], 0, kMostDecimals));
+  return to_char(value, decimals);
+}
+
+/// BEG counts from 0; without LEN up to the end.
+NcResult<std::string> sub_string(Channel& channel, Operands operands) {
+  auto source = TRY(text(channel, operands[0]));
+  const auto begin = TRY(count(channel, operands[1], 0));
+  const auto length = TRY(count(channel, operands[2], source.size()));
+  const std::size_t size = tabfile::count_characters(source);
+  if (begin > size) return nc_error(1011, "SUBSTR begins at character {} of {}", begin, size);
+  const std::size_t first = tabfile::skip_characters(source, 0, begin);
+  const std::size_t last = tabfile::skip_characters(source, first, length);
+  return source.substr(first, last - first);
+}
+
+// The control's formats of date and time, by NR: {0} year, {1} its last two digits, {2} month, {3}
+// day, {4} hour, {5} minute, {6} second.
+constexpr std::array<std::string_view, 17> kFormats{
+    "{3:02}.{2:02}.{0} {4:02}:{5:02}:{6:02}",
+    "{3}.{2:02}.{0} {4}:{5:02}:{6:02}",
+    "{3}.{2:02}.{0} {4}:{5:02}",
+    "{3}.{2:02}.{1:02} {4}:{5:02}",
+    "{0}-{2:02}-{3:02} {4:02}:{5:02}:{6:02}",
+    "{0}-{2:02}-{3:02} {4:02}:{5:02}",
+    "{0}-{2:02}-{3:02} {4}:{5:02}",
+    "{1:02}-{2:02}-{3:02} {4}:{5:02}",
+    "{3:02}.{2:02}.{0}",
+    "{3}.{2:02}.{0}",
+    "{3}.{2:02}.{1:02}",
+    "{0}-{2:02}-{3:02}",
+    "{1:02}-{2:02}-{3:02}",
+    "{4:02}:{5:02}:{6:02}",
+    "{4}:{5:02}:{6:02}",
+    "{4}:{5:02}",
+    "{3:02}.{2:02}.{0} {4:02}:{5:02}",
+};
+
+/// 10010: paths of the main program, the program that runs, and the one selected; 10060 and 10950:
+/// the tool; 10321: date and time in UTC.
+NcResult<std::string> system_string(Channel& channel, Operands operands) {
+  const auto id = TRY(whole(channel, operands[0]));
+  std::int64_t nr = 0;
+  if (!is_absent(operands[1])) nr = TRY(whole(channel, operands[1]));
+  if (id == 10010 && nr == 1) return channel.calls.main_program().path().text();
+  if (id == 10010 && nr == 2) return channel.linked().path().text();
+  if ((id == 10060 || id == 10950) && nr <= 1) {
+    const Tool* tool = channel.state().active_tool();
+    return tool == nullptr ? std::string() : tool->name;
+  }
+  if (id == 10321 && nr >= 0 && nr < static_cast<std::int64_t>(kFormats.size())) {
+    const CivilTime t = civil_time(channel.now());
+    return fmt::format(fmt::runtime(kFormats[static_cast<std::size_t>(nr)]), t.year, t.year % 100,
+                       t.month, t.day, t.hour, t.minute, t.second);
+  }
+  return nc_error("SYSSTR( ID{} NR{} ) is not available", id, nr);
+}
+
+NcResult<double> to_number(std::string source) {
+  for (char& c : source) c = c == ',' ? '.' : c;
+  std::string_view digits = trim(source);
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value,
+                                            std::chars_format::fixed);
+  if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
+    return nc_error("TONUMB: '{}' is not a number", source);
+  return value;
+}
+
+/// From 0; the length of the source when it is not found.
+NcResult<double> in_string(Channel& channel, const std::string& source, Operands operands) {
+  const auto sought = TRY(text(channel, operands[1]));
+  const auto begin = TRY(count(channel, operands[2], 0));
+  const std::size_t found = source.find(sought, tabfile::skip_characters(source, 0, begin));
+  return static_cast<double>(tabfile::count_characters(std::string_view(source).substr(0, found)));
+}
+
+constexpr std::array<std::string_view, 12> kMonths{"Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                                                   "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+
+/// Concat, ToChar, SubString, SystemString.
+NcResult<std::string> string_value(Channel& channel, NodeIndex index) {
+  const auto operands = channel.program().operands(index);
+  switch (channel.program().node(index).op) {
+    case Operator::Concat: return concatenate(channel, operands);
+    case Operator::ToChar: return number_text(channel, operands);
+    case Operator::SubString: return sub_string(channel, operands);
+    case Operator::SystemString: return system_string(channel, operands);
+    default: return nc_error("a text is needed here, not a number");
+  }
+}
+
+/// ToNumber, InString, StringLength, StringCompare.
+NcResult<double> string_number(Channel& channel, NodeIndex index) {
+  const auto operands = channel.program().operands(index);
+  const Operator op = channel.program().node(index).op;
+  if (op == Operator::StringLength) {
+    // The length of an undefined string is -1.
+    const auto* parameter = std::get_if<QRef>(&operands[0]);
+    if (parameter != nullptr && !channel.parameters.is_defined(*parameter)) return -1.0;
+  }
+  auto source = TRY(text(channel, operands[0]));
+  switch (op) {
+    case Operator::ToNumber: return to_number(std::move(source));
+    case Operator::InString: return in_string(channel, source, operands);
+    case Operator::StringLength: return static_cast<double>(tabfile::count_characters(source));
+    case Operator::StringCompare: {
+      const auto other = TRY(text(channel, operands[1]));
+      const int order = source.compare(other);
+      return order == 0 ? 0.0 : order < 0 ? -1.0 : 1.0;
+    }
+    default: return nc_error("a number is needed here, not a text");
+  }
 }
 
 }  // namespace
@@ -134,70 +253,17 @@ NcResult<bool> condition(Channel& channel, NodeIndex index) {
   }
 }
 
-std::optional<double> tool_value(const Tool& tool, std::int64_t nr) {
-  if (const machine::ToolColumn* plain = column(machine::kToolColumns, nr)) return tool.*plain->value;
-  if (const WholeColumn* whole = column(kWholeColumns, nr)) return tool.*whole->value;
-  switch (nr) {
-    case 7: return tool.locked ? 1 : 0;
-    case 18: return tool.clockwise ? 0 : 1;
-    default: return std::nullopt;
+std::string to_char(double value, int decimals) {
+  constexpr int kDefaultDecimals = 6;
+  std::string text = fmt::format("{:.{}f}", value, decimals < 0 ? kDefaultDecimals : decimals);
+  if (decimals < 0) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
   }
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  return is_zero && text.front() == '-' ? text.substr(1) : text;
 }
 
-ToolWrite set_tool_value(Tool& tool, std::int64_t nr, double value) {
-  if (const machine::ToolColumn* plain = column(machine::kToolColumns, nr)) {
-    tool.*plain->value = value;
-    return ToolWrite::Done;
-  }
-  if (const WholeColumn* whole = column(kWholeColumns, nr)) {
-    if (!(value >= 0 && value <= whole->most) || value != std::floor(value))
-      return ToolWrite::OutOfRange;
-    tool.*whole->value = static_cast<int>(value);
-    return ToolWrite::Done;
-  }
-  switch (nr) {
-    case 7: tool.locked = value != 0; return ToolWrite::Done;
-    case 18: tool.clockwise = value == 0; return ToolWrite::Done;
-    default: return ToolWrite::Unknown;
-  }
-}
-
-std::int64_t tool_column(std::string_view name) {
-  const std::int64_t plain = number_of(machine::kToolColumns, name);
-  return plain != 0 ? plain : number_of(kWholeColumns, name);
-}
-
-NcResult<void> note_lathe_value(Channel& channel, const Tool& tool, std::int64_t nr) {
-  const auto* known = column(machine::kToolColumns, nr);
-  const bool is_length =
-      known != nullptr && (known->value == &Tool::l || known->value == &Tool::r ||
-                           known->value == &Tool::dl || known->value == &Tool::dr);
-  if (!tool.lathe || !is_length) return {};
-  return channel.note(
-      "tool {} is a lathe tool: {} has no effect, since ZL, XL, DZL and DXL are its lengths",
-      tool.number, known->name);
-}
-
-bool is_tool_length(std::int64_t nr) {
-  return nr < 8 || nr == 13 || (nr > 15 && nr < 28) || nr == 33;
-}
-
-void update_preassigned(Channel& channel) {
-  const MachineState& state = channel.state();
-  QParameters& q = channel.parameters;
-  const bool is_inch = channel.calls.main_program().is_inch();
-  const double unit = is_inch ? 25.4 : 1.0;
-  q.set_q(108, state.tool_radius() / unit);
-  q.set_q(109, state.tool.axis ? static_cast<double>(index(*state.tool.axis)) : -1);
-  q.set_q(110, static_cast<int>(state.modes.spindle));
-  q.set_q(111, state.modes.coolant ? 1 : 0);
-  q.set_q(113, is_inch ? 1 : 0);
-  q.set_q(114, state.tool_length() / unit);
-}
-
-void set_plane_angles(Channel& channel, const Vec3& rotary) {
-  for (std::uint16_t i = 0; i < 3; ++i)
-    channel.parameters.set_q(static_cast<std::uint16_t>(120 + i), rotary[i]);
-}
+std::string_view month_name(int month) { return kMonths[static_cast<std::size_t>(month - 1)]; }
 
 }  // namespace fitgauge::interpreter

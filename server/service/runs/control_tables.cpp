@@ -139,8 +139,12 @@ constexpr std::pair<std::string_view, double ProbeRow::*> kProbeLengths[] = {
 void read(Row& row, Tool& tool) {
   tool.number = row.number();
   tool.name = row.text("NAME");
-  for (const auto& [name, value, nr, is_length] : machine::kToolColumns) {
-    is_length ? row.length(name, tool.*value) : row.number(name, tool.*value);
+  for (const machine::ToolColumn& column : machine::tool_columns()) {
+    if (column.number == nullptr) continue;
+    if (column.is_length)
+      row.length(column.name, tool.*column.number);
+    else
+      row.number(column.name, tool.*column.number);
   }
   tool.locked = row.text("TL") == "L";
   tool.clockwise = row.text("DIRECT") != "+";
