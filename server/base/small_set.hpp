@@ -13,23 +13,29 @@ class SmallSet {
   constexpr void insert(T value) { words_[place(value) / 64] |= bit(value); }
   constexpr void erase(T value) { words_[place(value) / 64] &= ~bit(value); }
   constexpr bool contains(T value) const {
-    return place(value) < 128 && (words_[place(value) / 64] & bit(value)) != 0;
+    if constexpr (!std::is_enum_v<T>) {
+      if (place(value) >= 128) return false;
+    }
+    return (words_[place(value) / 64] & bit(value)) != 0;
   }
-  friend constexpr SmallSet operator&(const SmallSet& a, const SmallSet& b) {
-    return SmallSet(std::array{a.words_[0] & b.words_[0], a.words_[1] & b.words_[1]});
+  friend constexpr SmallSet operator&(SmallSet a, SmallSet b) {
+    a.words_[0] &= b.words_[0];
+    a.words_[1] &= b.words_[1];
+    return a;
   }
-  friend constexpr SmallSet operator|(const SmallSet& a, const SmallSet& b) {
-    return SmallSet(std::array{a.words_[0] | b.words_[0], a.words_[1] | b.words_[1]});
+  friend constexpr SmallSet operator|(SmallSet a, SmallSet b) {
+    a.words_[0] |= b.words_[0];
+    a.words_[1] |= b.words_[1];
+    return a;
   }
 
  private:
-  constexpr explicit SmallSet(const std::array<std::uint64_t, 2>& words) : words_(words) {}
   static constexpr unsigned place(T value) {
     return static_cast<unsigned>(value) - static_cast<unsigned>(first);
   }
   static constexpr std::uint64_t bit(T value) { return std::uint64_t{1} << (place(value) % 64); }
 
-  std::array<std::uint64_t, 2> words_{};
+  std::uint64_t words_[2] = {0, 0};
 };
 
 }  // namespace fitgauge
