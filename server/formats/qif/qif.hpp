@@ -2,12 +2,29 @@
 
 #include "formats/dfq/measurement_csv.hpp"
 
+struct XML_ParserStruct;
+
 namespace fitgauge::qif {
+
+/// Names and texts.
+using Attributes = std::vector<std::pair<std::string, std::string>>;
 
 /// An element with its children. A view: valid until its reader continues.
 class Element {
  public:
-  struct Tree;
+  /// An element and all below it, in the order of the document.
+  struct Tree {
+    struct Node {
+      std::string name;
+      Attributes attributes{};  ///< those without a namespace
+      std::size_t text_begin = 0;
+      std::size_t text_end = 0;  ///< with that of all below
+      std::size_t next = 0;      ///< the place after all nested elements
+    };
+
+    std::vector<Node> nodes{};
+    std::string text{};  ///< of all nodes
+  };
   Element(const Tree& tree, std::size_t place) : tree_(&tree), place_(place) {}
 
   const std::string& name() const;
@@ -28,7 +45,7 @@ class Element {
     return found;
   }
   /// Returns names and values of AttributeStr and the other elements in `Attributes`, unchanged.
-  std::vector<std::pair<std::string, std::string>> named_attributes() const;
+  Attributes named_attributes() const;
 
  private:
   std::string_view attribute_as_it_is(std::string_view name) const;
@@ -50,8 +67,6 @@ class XmlReader {
   static constexpr std::size_t kDeepest = 256;
 
   explicit XmlReader(Read read);
-  XmlReader(XmlReader&&) noexcept;
-  ~XmlReader();
 
   /// Goes to the next element. @returns false at the end of the document.
   /// @errors CsvMalformed with the line
@@ -72,14 +87,37 @@ class XmlReader {
   Result<Element> take();
 
  private:
-  struct State;
   static constexpr std::size_t kNothing = std::numeric_limits<std::size_t>::max();
 
-  std::unique_ptr<State> state_;
+  // The parser calls these. It pauses at the begin of an element, and at the end of a taken one.
+  void begin(std::string_view name, const char** attributes);
+  void add(std::string_view text);
+  void end();
+  void fail(std::string what);
+
+  int feed();  ///< @returns an XML_Status
+  std::uint32_t line_now() const;
+  void check_size();
+  /// Ends the innermost node that is open.
+  void close();
+  void leave() {
+    names_.pop_back();
+    if (names_.size() < passed_) passed_ = kNothing;
+  }
+
+  Read read_;
+  std::unique_ptr<XML_ParserStruct, void (*)(XML_ParserStruct*)> parser_;
+  std::uint64_t fed_ = 0;
+  bool is_over_ = false;  ///< the parser has the whole document
+  std::optional<Error> error_{};
   std::vector<std::string> names_{};  ///< of the elements from the outermost on
   std::string name_space_{};
   std::uint32_t line_ = 1;
+  std::uint64_t begin_ = 0;        ///< byte of the element where the reader is
+  bool has_ended_ = false;         ///< that element, which is empty
   std::size_t passed_ = kNothing;  ///< the depth below which elements are passed over
+  std::unique_ptr<Element::Tree> tree_ = std::make_unique<Element::Tree>();  ///< of that element
+  std::vector<std::size_t> open_{};  ///< places of the nodes that are being taken
 };
 
 /// The texts of a measurement by the places of sheet::kMeasurementFields.
@@ -94,10 +132,10 @@ class Definitions {
   /// A characteristic that was measured.
   struct Item {
     std::string name{};
-    std::string nominal{};                                          ///< id
-    std::string device{};                                           ///< id
-    std::string part_feature{};                                     ///< id of a feature item
-    std::vector<std::pair<std::string, std::string>> attributes{};  ///< by names of fields
+    std::string nominal{};       ///< id
+    std::string device{};        ///< id
+    std::string part_feature{};  ///< id of a feature item
+    Attributes attributes{};     ///< by names of fields
   };
   struct Nominal {
     std::string definition{};  ///< id
