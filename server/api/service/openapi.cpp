@@ -12,39 +12,27 @@ struct Overloaded : Functions... {
 template <class... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;
 
-void write_schema(JsonWriter& json, const http::ParameterType& type) {
-  json.key("schema");
-  const auto* const described = std::get_if<http::Text>(&type);
-  if (described != nullptr && !described->schema.empty()) return void(json.raw(described->schema));
-  json.begin_object();
-  std::visit(
+std::string schema_of(const http::ParameterType& type) {
+  return std::visit(
       Overloaded{
-          [&](const http::Text& text) {
-            json.member("type", "string").member("maxLength", std::uint64_t{text.max_length});
+          [](const http::Text& text) {
+            return text.schema.empty() ? schema::text(text.max_length) : std::string(text.schema);
           },
-          [&](const http::Integer& integer) {
-            json.member("type", "integer")
-                .member("minimum", integer.min)
-                .member("maximum", integer.max);
-          },
-          [&](const http::Decimal& decimal) {
-            json.member("type", "number")
-                .key("minimum")
-                .decimal(decimal.min, decimal.scale)
-                .key("maximum")
-                .decimal(decimal.max, decimal.scale);
+          [](const http::Integer& integer) { return schema::integer(integer.min, integer.max); },
+          [](const http::Decimal& decimal) {
+            return json_object([&](JsonWriter& json) {
+              json.member("type", "number").key("minimum").decimal(decimal.min, decimal.scale);
+              json.key("maximum").decimal(decimal.max, decimal.scale);
+            });
           },
           // The number may also be a text, so that no double comes between, as in a body.
-          [&](const http::LengthIn&) {
-            json.key("type").begin_array().value("number").value("string").end_array();
+          [](const http::LengthIn&) { return std::string(R"({"type":["number","string"]})"); },
+          [](const http::Words& words) {
+            return schema::words({words.words.begin(), words.words.end()});
           },
-          [&](const http::Words& words) {
-            json.member("type", "string").list("enum", words.words);
-          },
-          [&](const http::Time&) { json.member("type", "string").member("format", "date-time"); },
+          [](const http::Time&) { return schema::time(); },
       },
       type);
-  json.end_object();
 }
 
 std::string_view place(http::ParameterPlace place) {
@@ -231,8 +219,7 @@ void write_operation(JsonWriter& json, const http::Route& route, const Schemas& 
           .member("in", place(parameter.place))
           .member("required", parameter.required || parameter.place == http::ParameterPlace::Path)
           .member("description", parameter.description);
-      write_schema(json, parameter.type);
-      json.end_object();
+      json.key("schema").raw(schema_of(parameter.type)).end_object();
     });
   }
   write_request_body(json, route.body, schemas);
