@@ -56,49 +56,14 @@ class WrittenFile final : public MeasurementFile {
   Writer writer_;
 };
 
-/// Cells of one row of a sheet.
-class SheetRow {
- public:
-  SheetRow(workbook::Workbook& book, const std::optional<sheet::TimeZone>& zone)
-      : book_(book), zone_(zone) {}
-
-  void begin_cell() {
-    if (is_empty_) book_.blank();
-    is_empty_ = true;
-  }
-
-  void word(std::string_view text) { cell().text(text); }
-  void name(std::string_view text) { cell().text(text); }
-  void text(std::string_view text) { cell().text(text); }
-  void time(Timestamp time) { cell().time(zone_ ? zone_->shown(time) : time); }
-  void mm(Length length) { cell().mm(length); }
-  void um(Length length) { cell().um(length); }
-  void decimal(std::int64_t value, int scale) { cell().decimal(value, scale); }
-  void billionths(std::int64_t value) { cell().decimal(value, 9); }
-  void truth() { cell().text("true"); }
-  void null() {}
-
- private:
-  workbook::Workbook& cell() {
-    is_empty_ = false;
-    return book_;
-  }
-
-  workbook::Workbook& book_;
-  bool is_empty_ = false;  ///< the cell that was begun
-  const std::optional<sheet::TimeZone>& zone_;
-};
-
 class XlsxFile final : public MeasurementFile {
  public:
-  XlsxFile(workbook::Workbook book, std::optional<sheet::TimeZone> zone)
-      : book_(std::move(book)), zone_(std::move(zone)) {}
+  explicit XlsxFile(workbook::Workbook book) : book_(std::move(book)) {}
 
   Result<void> add(const app::Measurement& measurement) override {
-    SheetRow row(book_, zone_);
     app::for_each_column([&](const auto& column, std::size_t /*index*/) {
-      row.begin_cell();
-      column.write(measurement, app::MemberValue{row});
+      book_.begin_cell();
+      column.write(measurement, app::MemberValue{book_});
     });
     book_.end_row();
     return {};
@@ -108,7 +73,6 @@ class XlsxFile final : public MeasurementFile {
 
  private:
   workbook::Workbook book_;
-  const std::optional<sheet::TimeZone> zone_;
 };
 
 /// Content of a file.
@@ -156,8 +120,8 @@ Result<std::unique_ptr<MeasurementFile>> make_file(Download& download) {
   std::vector<std::string> columns;
   app::for_each_column(
       [&](const auto& column, std::size_t /*index*/) { columns.emplace_back(column.name); });
-  auto book = TRY(workbook::Workbook::make("measurements", columns));
-  return Made(std::make_unique<XlsxFile>(std::move(book), std::move(options.zone)));
+  auto book = TRY(workbook::Workbook::make("measurements", columns, std::move(options.zone)));
+  return Made(std::make_unique<XlsxFile>(std::move(book)));
 }
 
 Error too_many(const std::string& matching, const std::string& most) {

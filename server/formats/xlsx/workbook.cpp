@@ -10,35 +10,6 @@
 
 namespace fitgauge::workbook {
 
-/// A file in memory that a library may write by its name.
-class MemoryFile {
- public:
-  MemoryFile() : descriptor_(memfd_create("fitgauge.xlsx", MFD_CLOEXEC)) {}
-  MemoryFile& operator=(MemoryFile&&) = delete;  // neither copied nor moved
-  ~MemoryFile() {
-    if (is_open()) close(descriptor_);
-  }
-
-  bool is_open() const { return descriptor_ >= 0; }
-  std::string path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
-  /// Returns all bytes; none if they cannot be read.
-  std::optional<std::string> bytes() const {
-    struct stat about {};
-    if (fstat(descriptor_, &about) != 0) return std::nullopt;
-    std::string bytes(static_cast<std::size_t>(about.st_size), '\0');
-    for (std::size_t at = 0; at < bytes.size();) {
-      const ssize_t count =
-          pread(descriptor_, bytes.data() + at, bytes.size() - at, static_cast<off_t>(at));
-      if (count <= 0) return std::nullopt;
-      at += static_cast<std::size_t>(count);
-    }
-    return bytes;
-  }
-
- private:
-  int descriptor_;
-};
-
 namespace {
 
 constexpr double kColumnWidth = 16;
@@ -54,113 +25,100 @@ Error cannot_write(std::string_view why) {
               why)};
 }
 
+/// Returns all bytes; none if they cannot be read.
+std::optional<std::string> bytes_of(const Descriptor& file) {
+  struct stat about {};
+  if (fstat(file.get(), &about) != 0) return std::nullopt;
+  std::string bytes(static_cast<std::size_t>(about.st_size), '\0');
+  for (std::size_t at = 0; at < bytes.size();) {
+    const ssize_t count =
+        pread(file.get(), bytes.data() + at, bytes.size() - at, static_cast<off_t>(at));
+    if (count <= 0) return std::nullopt;
+    at += static_cast<std::size_t>(count);
+  }
+  return bytes;
+}
+
 }  // namespace
 
-struct Workbook::State {
-  State& operator=(State&&) = delete;  // neither copied nor moved
-  ~State() {
-    if (book != nullptr) lxw_workbook_free(book);
-  }
+Workbook::Workbook()
+    : file_(memfd_create("fitgauge.xlsx", MFD_CLOEXEC)), book_(nullptr, lxw_workbook_free) {}
 
-  lxw_format* format(const char* number) const {
-    lxw_format* const made = workbook_add_format(book);
-    format_set_num_format(made, number);
-    return made;
-  }
+void Workbook::write(std::string_view text, lxw_format* as) {
+  const auto column = static_cast<lxw_col_t>(cells_ - 1);
+  took(worksheet_write_string(sheet_, row_, column, std::string(text).c_str(), as));
+}
 
-  MemoryFile file{};
-  std::string folder{};
-  lxw_workbook* book = nullptr;
-  lxw_worksheet* sheet = nullptr;
-  lxw_format* mm = nullptr;
-  lxw_format* um = nullptr;
-  lxw_format* time = nullptr;
-  lxw_row_t row = 0;
-  lxw_col_t column = 0;
-  lxw_error failure = LXW_NO_ERROR;
+void Workbook::number(double value, lxw_format* as) {
+  took(worksheet_write_number(sheet_, row_, static_cast<lxw_col_t>(cells_ - 1), value, as));
+}
 
-  void took(lxw_error error) {
-    if (error != LXW_NO_ERROR) failure = error;
-    ++column;
-  }
-  void number(double value, lxw_format* as) {
-    took(worksheet_write_number(sheet, row, column, value, as));
-  }
-};
-
-Workbook::Workbook(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Workbook::Workbook(Workbook&&) noexcept = default;
-Workbook& Workbook::operator=(Workbook&&) noexcept = default;
-Workbook::~Workbook() = default;
-
-Result<Workbook> Workbook::make(std::string_view sheet, std::span<const std::string> header) {
-  auto state = std::make_unique<State>();
+Result<Workbook> Workbook::make(std::string_view sheet, std::span<const std::string> header,
+                                std::optional<sheet::TimeZone> zone) {
   std::error_code failure;
-  state->folder = std::filesystem::temp_directory_path(failure).string();
+  std::string folder = std::filesystem::temp_directory_path(failure).string();
   if (failure) return cannot_write(failure.message());
-  if (access(state->folder.c_str(), W_OK) != 0) return cannot_write("no file can be made there");
-  if (!state->file.is_open()) return cannot_write("there is no memory for it");
+  if (access(folder.c_str(), W_OK) != 0) return cannot_write("no file can be made there");
+  Workbook made;
+  made.zone_ = std::move(zone);
+  if (!made.file_.is_open()) return cannot_write("there is no memory for it");
   lxw_workbook_options options{
-      .constant_memory = LXW_TRUE, .tmpdir = state->folder.data(), .use_zip64 = LXW_FALSE};
-  state->book = workbook_new_opt(state->file.path().c_str(), &options);
-  if (state->book != nullptr)
-    state->sheet = workbook_add_worksheet(state->book, std::string(sheet).c_str());
-  if (state->sheet == nullptr) return cannot_write("it cannot be begun");
-  state->mm = state->format("0.000000\" mm\"");
-  state->um = state->format("0.000\" \u00B5m\"");
-  state->time = state->format("yyyy-mm-dd hh:mm:ss.000");
-  lxw_format* const bold = workbook_add_format(state->book);
+      .constant_memory = LXW_TRUE, .tmpdir = folder.data(), .use_zip64 = LXW_FALSE};
+  // The library writes a file by its name.
+  const std::string path = fmt::format("/proc/self/fd/{}", made.file_.get());
+  lxw_workbook* const book = workbook_new_opt(path.c_str(), &options);
+  made.book_.reset(book);
+  if (book != nullptr) made.sheet_ = workbook_add_worksheet(book, std::string(sheet).c_str());
+  if (made.sheet_ == nullptr) return cannot_write("it cannot be begun");
+  for (const auto& [format, number] : {std::pair(&made.mm_, "0.000000\" mm\""),
+                                       {&made.um_, "0.000\" \u00B5m\""},
+                                       {&made.time_, "yyyy-mm-dd hh:mm:ss.000"}}) {
+    *format = workbook_add_format(book);
+    format_set_num_format(*format, number);
+  }
+  lxw_format* const bold = workbook_add_format(book);
   format_set_bold(bold);
   const auto last = static_cast<lxw_col_t>(header.size() - 1);
-  worksheet_set_column(state->sheet, 0, last, kColumnWidth, nullptr);
-  worksheet_freeze_panes(state->sheet, 1, 0);
-  for (const std::string& name : header)
-    state->took(worksheet_write_string(state->sheet, 0, state->column, name.c_str(), bold));
-  Workbook workbook(std::move(state));
-  workbook.end_row();
-  return workbook;
+  worksheet_set_column(made.sheet_, 0, last, kColumnWidth, nullptr);
+  worksheet_freeze_panes(made.sheet_, 1, 0);
+  for (const std::string& name : header) {
+    made.begin_cell();
+    made.write(name, bold);
+  }
+  made.end_row();
+  return made;
 }
 
 void Workbook::text(std::string_view text) {
-  if (text.empty()) return blank();
-  const std::string ended(text);
-  state_->took(
-      worksheet_write_string(state_->sheet, state_->row, state_->column, ended.c_str(), nullptr));
+  if (!text.empty()) write(text, nullptr);
 }
 
 void Workbook::mm(Length length) {
   constexpr double kNanometres = 1e6;
-  state_->number(static_cast<double>(length.count()) / kNanometres, state_->mm);
+  number(static_cast<double>(length.count()) / kNanometres, mm_);
 }
 
 void Workbook::um(Length length) {
   constexpr double kNanometres = 1e3;
-  state_->number(static_cast<double>(length.count()) / kNanometres, state_->um);
+  number(static_cast<double>(length.count()) / kNanometres, um_);
 }
 
 void Workbook::decimal(std::int64_t value, int scale) {
-  state_->number(static_cast<double>(value) / std::pow(10.0, scale), nullptr);
+  number(static_cast<double>(value) / std::pow(10.0, scale), nullptr);
 }
 
 void Workbook::time(Timestamp time) {
+  if (zone_) time = zone_->shown(time);
   const double day =
       static_cast<double>(time.nanoseconds) / kNanosecondsPerSecond / kSecondsPerDay + kEpochDay;
   if (day < kFirstDay) return text(format_rfc3339(time));
-  state_->number(day, state_->time);
-}
-
-void Workbook::blank() { ++state_->column; }
-
-void Workbook::end_row() {
-  ++state_->row;
-  state_->column = 0;
+  number(day, time_);
 }
 
 Result<std::string> Workbook::finish() {
-  if (state_->failure != LXW_NO_ERROR) return cannot_write(lxw_strerror(state_->failure));
-  const lxw_error closed = workbook_close(std::exchange(state_->book, nullptr));
-  if (closed != LXW_NO_ERROR) return cannot_write(lxw_strerror(closed));
-  auto bytes = state_->file.bytes();
+  if (failure_ == LXW_NO_ERROR) failure_ = workbook_close(book_.release());
+  if (failure_ != LXW_NO_ERROR) return cannot_write(lxw_strerror(static_cast<lxw_error>(failure_)));
+  auto bytes = bytes_of(file_);
   if (!bytes) return cannot_write("it cannot be read again");
   return *std::move(bytes);
 }

@@ -1,7 +1,12 @@
 #pragma once
 
-#include "base/clock.hpp"
+#include "base/folder.hpp"
 #include "base/length.hpp"
+#include "formats/sheet/time_zone.hpp"
+
+struct lxw_format;
+struct lxw_workbook;
+struct lxw_worksheet;
 
 namespace fitgauge::workbook {
 
@@ -14,31 +19,51 @@ class Workbook {
 
   /// Begins the sheet with its header, which stays visible.
   /// @errors StorageUnavailable: the folder of temporary files (TMPDIR, else /tmp) is full.
-  static Result<Workbook> make(std::string_view sheet, std::span<const std::string> header);
-  Workbook(Workbook&&) noexcept;
-  Workbook& operator=(Workbook&&) noexcept;
-  ~Workbook();
+  /// @param zone of the times; none: UTC
+  static Result<Workbook> make(std::string_view sheet, std::span<const std::string> header,
+                               std::optional<sheet::TimeZone> zone);
 
-  // The next cell of the row.
+  /// Goes to the next cell of the row, which is blank if nothing is written to it.
+  void begin_cell() { ++cells_; }
+  void word(std::string_view word) { text(word); }
+  void name(std::string_view name) { text(name); }
   void text(std::string_view text);
   void mm(Length length);
   void um(Length length);
   /// @param value in units of 10^-scale
   void decimal(std::int64_t value, int scale);
+  void billionths(std::int64_t value) { decimal(value, 9); }
   /// Writes a wall-clock time, because a cell has no offset. A time before 1900-03-01, which a
   /// sheet cannot count, becomes a text.
   void time(Timestamp time);
-  void blank();
-  void end_row();
+  void truth() { text("true"); }
+  void null() {}
+  void end_row() {
+    ++row_;
+    cells_ = 0;
+  }
 
   /// The whole file. @errors StorageUnavailable: it could not be written.
   Result<std::string> finish();
 
  private:
-  struct State;
-  explicit Workbook(std::unique_ptr<State> state);
+  Workbook();
+  void took(int error) {
+    if (error != 0) failure_ = error;
+  }
+  void write(std::string_view text, lxw_format* as);
+  void number(double value, lxw_format* as);
 
-  std::unique_ptr<State> state_;
+  Descriptor file_;  ///< in memory
+  std::unique_ptr<lxw_workbook, void (*)(lxw_workbook*)> book_;
+  lxw_worksheet* sheet_ = nullptr;
+  lxw_format* mm_ = nullptr;
+  lxw_format* um_ = nullptr;
+  lxw_format* time_ = nullptr;
+  std::uint32_t row_ = 0;
+  std::uint16_t cells_ = 0;  ///< of the row that are begun
+  std::optional<sheet::TimeZone> zone_;
+  int failure_ = 0;  ///< an lxw_error
 };
 
 }  // namespace fitgauge::workbook
