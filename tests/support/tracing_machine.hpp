@@ -77,7 +77,8 @@ class TracingMachine final : public SimulatedMachine {
  public:
   TracingMachine(const Setup& setup, TraceOptions options, Allowance* allowance = nullptr)
       : SimulatedMachine(setup, allowance), lines_most_(options.lines ? options.longest : 0) {
-    trace(options.keep ? std::move(options.keep) : [](const TracedMove&) {}, options.longest);
+    trace(
+        options.keep ? std::move(options.keep) : [](const TracedMove&) {}, options.longest);
   }
 
   const std::vector<std::string>& lines() const { return lines_; }
@@ -127,7 +128,8 @@ class TracingMachine final : public SimulatedMachine {
                  [&] { return fmt::format("TT {} R{:+.4f}", text_of(tt.centre), tt.radius); });
   }
   MachineResult<void> activate_preset(int number) override {
-    return write(SimulatedMachine::activate_preset(number), [&] { return fmt::format("PRESET {}", number); });
+    return write(SimulatedMachine::activate_preset(number),
+                 [&] { return fmt::format("PRESET {}", number); });
   }
   MachineResult<void> set_frames(const Frames& frames) override {
     return write(SimulatedMachine::set_frames(frames), [&] { return text_of(frames); });
@@ -151,7 +153,8 @@ class TracingMachine final : public SimulatedMachine {
     });
   }
   MachineResult<void> dwell(double seconds) override {
-    return write(SimulatedMachine::dwell(seconds), [&] { return fmt::format("DWELL {:g}", seconds); });
+    return write(SimulatedMachine::dwell(seconds),
+                 [&] { return fmt::format("DWELL {:g}", seconds); });
   }
   void stop(std::string_view reason) override {
     SimulatedMachine::stop(reason);
