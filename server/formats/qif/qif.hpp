@@ -28,14 +28,14 @@ class Element {
   Element(const Tree& tree, std::size_t place) : tree_(&tree), place_(place) {}
 
   const std::string& name() const;
-  /// Its text without surrounding blanks; empty if it has none.
+  /// An attribute of the element, without surrounding blanks; empty if it has none.
   std::string attribute(std::string_view name) const;
   /// Trimmed text of the first element at the path `Tolerance/MaxValue` below; empty if absent.
   std::string text(std::string_view path) const {
     const auto found = find(path);
     return found.empty() ? std::string() : found.front().own_text();
   }
-  /// An attribute of the element, without surrounding blanks.
+  /// Its text without surrounding blanks.
   std::string own_text() const;
   bool has(std::string_view path) const { return !find(path).empty(); }
   /// All elements at the path.
@@ -83,7 +83,8 @@ class XmlReader {
 
   /// Skips all of it.
   void pass_over() { passed_ = names_.size(); }
-  /// All of the element, which next() then passes over. @errors CsvMalformed with the line
+  /// All of the element, which next() then passes over; name(), parent() and depth() say
+  /// nothing until then. @errors CsvMalformed with the line
   Result<Element> take();
 
  private:

@@ -107,6 +107,7 @@ void XmlReader::fail(std::string what) {
 }
 
 Result<bool> XmlReader::next() {
+  if (error_) return *error_;
   if (std::exchange(has_ended_, false)) leave();
   XML_Parser parser = parser_.get();
   XML_SetUserData(parser, this);  // it may have moved
@@ -186,6 +187,7 @@ void XmlReader::add(std::string_view text) {
 }
 
 void XmlReader::end() {
+  if (error_) return;  // an empty element ends also after begin() has failed
   XML_ParsingStatus state;
   XML_GetParsingStatus(parser_.get(), &state);
   has_ended_ = state.parsing == XML_SUSPENDED;

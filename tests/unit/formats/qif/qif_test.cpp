@@ -194,6 +194,8 @@ TEST_CASE("rows, definitions and elements are bounded") {
   for (int i = 0; i < 257; ++i) attributes += fmt::format(" a{}=''", i);
   CHECK(error_of(root + "<a" + attributes + "/>").find("has more than 256 attributes") !=
         std::string::npos);
+  CHECK(error_of("<a" + attributes + "/>").find("has more than 256 attributes") !=
+        std::string::npos);
   std::string deep = root;
   for (int i = 0; i < 256; ++i) deep += "<a>";
   CHECK(error_of(deep).find("has more than 256 elements inside each other") != std::string::npos);
