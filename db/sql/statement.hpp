@@ -2,6 +2,7 @@
 
 #include <boost/pfr.hpp>
 
+#include "base/allowance.hpp"
 #include "base/clock.hpp"
 #include "base/digest.hpp"
 #include "db/sql/connection.hpp"
@@ -268,7 +269,11 @@ namespace fitgauge::store {
 
 template <class Store>
 StatementsOf<Store>& OnConnection<Store>::statements() const {
-  if (!statements_) statements_ = std::make_shared<StatementsOf<Store>>(connection_);
+  if (!statements_) {
+    const std::int64_t before = thread_memory();
+    statements_ = std::make_shared<StatementsOf<Store>>(connection_);
+    hand_over_memory(before - thread_memory());  // not the memory of the job that comes first
+  }
   return *statements_;
 }
 

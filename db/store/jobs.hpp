@@ -151,7 +151,8 @@ struct WriterCounters {
 
 /// The one thread that writes. It runs all jobs that arrived during the last commit in one
 /// transaction, each of several in a savepoint, commits once (durable when the commit returns) and
-/// then delivers the outcomes. There is no timer: a single job is committed at once.
+/// then delivers the outcomes. There is no timer: a single job is committed at once. If a job's
+/// work returns an Error, only its own changes are reverted.
 ///
 /// Thread-safe. After a failed commit every job of its batch is refused with StorageUnavailable;
 /// unless the disk was full, the connection is opened again, and nothing is delivered before a
