@@ -15,8 +15,9 @@ constexpr std::string_view kGzipCoded = "Content-Encoding: gzip\r\n";
 std::string_view reason(int status) {
   if (status == 413) return "Content Too Large";
   if (status == 422) return "Unprocessable Content";
-  const auto phrase = boost::beast::http::obsolete_reason(
-      boost::beast::http::int_to_status(static_cast<unsigned>(status)));
+  const auto known = boost::beast::http::int_to_status(static_cast<unsigned>(status));
+  if (known == boost::beast::http::status::unknown) return {};
+  const auto phrase = boost::beast::http::obsolete_reason(known);
   return {phrase.data(), phrase.size()};
 }
 

@@ -100,8 +100,8 @@ struct PreparedHead {
   std::size_t shared_size = 0;  ///< both forms are equal up to here
 };
 
-/// A serialised answer and its 304, without the fields that depend on the request: the fields of
-/// every answer, and Vary. Immutable and thread-safe.
+/// A serialised answer: whole for a plain request, and its head and 304 without the fields that
+/// depend on the request: those of every answer, and Vary. Immutable and thread-safe.
 class PreparedResponse {
  public:
   PreparedResponse(const Response& response, std::string packed);
