@@ -21,6 +21,7 @@ enum class ValueRole : std::uint8_t {
 struct MeasuredValue {
   std::string_view characteristic{};  ///< "Diameter", as in the log: constant text
   ValueRole role = ValueRole::HoleSize;
+  bool is_face = false;  ///< a position that is judged as a size, by the side of its material
   Length nominal{};
   Length measured{};
   std::optional<Limits> limits{};  ///< nothing when the block switches the check off
@@ -28,7 +29,6 @@ struct MeasuredValue {
   std::uint16_t deviation_q = 0;   ///< receives the deviation; 0 is none
   int error_too_large = 1072;      ///< of Q309
   int error_too_small = 1072;
-  bool is_face = false;  ///< a position that is judged as a size, by the side of its material
   std::optional<Length> uncertainty{};  ///< standard uncertainty, if it decides
 
   bool is_position() const { return is_face || role == ValueRole::Position; }

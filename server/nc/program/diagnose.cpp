@@ -122,7 +122,8 @@ void suggest(std::vector<Diagnostic>& diagnostics, std::string_view wrong,
   const std::string word = ascii_upper(wrong);
   for (std::size_t at = 0; (at = line.find(word, at)) != line.npos; at += word.size()) {
     const auto column = [&](std::size_t byte) {
-      return static_cast<std::uint32_t>(1 + tabfile::count_characters(line.substr(0, byte)));
+      return static_cast<std::uint32_t>(
+          1 + tabfile::count_characters(std::string_view(line).substr(0, byte)));
     };
     const std::size_t end = at + word.size();
     const bool is_whole =

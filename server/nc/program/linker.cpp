@@ -99,8 +99,9 @@ class Linker {
     constexpr std::size_t kMostCompared = 1000;
     std::size_t compared = 0;
     for (const auto& [known, at] : parts_.labels) {
+      if (!known.starts_with('"')) continue;  // a number
       if (++compared > kMostCompared) break;
-      if (known.starts_with('"')) hint.consider(known.substr(1, known.size() - 2));
+      hint.consider(std::string_view(known).substr(1, known.size() - 2));
     }
     return hint;
   }

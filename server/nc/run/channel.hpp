@@ -92,7 +92,8 @@ class CallStack {
     std::size_t first_label = 0;  ///< of the returns that belong to this program
   };
 
-  static constexpr std::size_t kMostNested = 19;  ///< of subprograms, and of programs
+  static constexpr std::size_t kMostNested =
+      19;  ///< of subprograms, and of programs: the control's (error 1025)
 
   std::vector<Activation> programs_;
   std::vector<std::uint32_t> label_returns_;

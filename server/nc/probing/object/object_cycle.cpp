@@ -27,12 +27,12 @@ std::vector<MeasuredValue> values_of(const CycleDescriptor& cycle, const ObjectF
                       .role = towards == 0  ? ValueRole::Position
                               : towards < 0 ? ValueRole::ShaftSize
                                             : ValueRole::HoleSize,
+                      .is_face = true,
                       .nominal = to_length(point.nominal[i % 3]),
                       .measured = to_length(point.measured[i % 3]),
                       .limits = point.limits.at(i % 3),
                       .result_q = static_cast<std::uint16_t>(950 + i),
-                      .deviation_q = static_cast<std::uint16_t>(980 + i),
-                      .is_face = true});
+                      .deviation_q = static_cast<std::uint16_t>(980 + i)});
   }
   values.insert(values.end(), found.sizes.begin(), found.sizes.end());
   return values;

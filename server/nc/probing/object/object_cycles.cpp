@@ -278,9 +278,9 @@ CycleResult<void> probe_inclined(const CycleContext& context) {
   const ObjectPoint& first = found.points.front();
   found.sizes.push_back({.characteristic = "Distance from the nominal line",
                          .role = ValueRole::ShaftSize,
+                         .is_face = true,
                          .measured = to_length(dot(first.nominal - first.measured, direction)),
-                         .limits = limits,
-                         .is_face = true});
+                         .limits = limits});
   return probing.finish(found);
 }
 
