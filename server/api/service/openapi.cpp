@@ -336,8 +336,15 @@ void add_openapi_route(Routes& add, const Schemas& of_plant) {
       {.summary = "This description",
        .tag = "service",
        .outcomes = {{.meaning = "OpenAPI 3.1", .schema = "Description"}}});
-  const auto document = http::prepare({200, "application/json", openapi_json(add.all, of_plant)});
-  add.all.back().handler = [document](const Request&) -> Result<Response> {
+  // Written for the first that asks: else it takes an eighth of each start.
+  const auto written =
+      std::make_shared<std::pair<std::once_flag, std::shared_ptr<const http::PreparedResponse>>>();
+  add.all.back().handler = [written, routes = add.all,
+                            of_plant](const Request&) -> Result<Response> {
+    auto& [once, document] = *written;
+    std::call_once(once, [&, &prepared = document] {
+      prepared = http::prepare({200, "application/json", openapi_json(routes, of_plant)});
+    });
     return Response(document);
   };
 }
