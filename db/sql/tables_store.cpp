@@ -37,6 +37,19 @@ std::vector<CustomRow> rows_of(const std::vector<iso286::CustomColumn>& columns)
   return rows;
 }
 
+Digest digest_of_rows(const std::vector<CellRow>& cells, const std::vector<CustomRow>& custom) {
+  CanonicalDigest digest;
+  const auto add = [&digest](const auto& rows) {
+    digest.add(rows.size());
+    for (const auto& row : rows) {
+      std::apply([&digest](const auto&... members) { (digest.add(members), ...); }, row);
+    }
+  };
+  add(cells);
+  add(custom);
+  return digest.finish();
+}
+
 bool has_order(const CellRow&) { return true; }
 bool has_order(const CustomRow& row) { return std::get<5>(row) <= std::get<4>(row); }
 
@@ -165,11 +178,11 @@ struct StatementsOf<TablesStore> {
   }
 
   /// The set with exactly these cells, stored now if it was not.
-  std::int64_t set_of(const iso286::TableData& content) {
-    const Digest digest = digest_of({.cells = content.cells, .custom_columns = {}});
+  std::int64_t set_of(const std::vector<CellRow>& rows) {
+    const Digest digest = digest_of_rows(rows, {});
     if (const auto known = read_first<std::int64_t>(set_by_digest.query(digest))) return *known;
     const auto set = insert_set.returning<std::int64_t>(digest);
-    for (const CellRow& row : rows_of(content.cells)) {
+    for (const CellRow& row : rows) {
       std::apply([&](const auto&... values) { insert_cell.run(set, values...); }, row);
     }
     return set;
@@ -179,16 +192,7 @@ struct StatementsOf<TablesStore> {
 std::string shown_digits(const Digest& digest) { return to_hex(digest).substr(0, kShownDigits); }
 
 Digest digest_of(const iso286::TableData& content) {
-  CanonicalDigest digest;
-  const auto add = [&digest](const auto& rows) {
-    digest.add(rows.size());
-    for (const auto& row : rows) {
-      std::apply([&digest](const auto&... members) { (digest.add(members), ...); }, row);
-    }
-  };
-  add(rows_of(content.cells));
-  add(rows_of(content.custom_columns));
-  return digest.finish();
+  return digest_of_rows(rows_of(content.cells), rows_of(content.custom_columns));
 }
 
 Result<TableRevision> TablesStore::import(const TableImport& tables, std::int64_t now_ns) {
@@ -201,13 +205,14 @@ Result<TableRevision> TablesStore::import(const TableImport& tables, std::int64_
         fmt::format("the current tables are revision {}: read them again and repeat the change",
                     newest ? newest->id : "none")};
   }
-  TRY(check_rows(rows_of(tables.content.cells)));
+  const auto cells = rows_of(tables.content.cells);
+  TRY(check_rows(cells));
   const auto custom = rows_of(tables.content.custom_columns);
   TRY(check_rows(custom));
 
-  const std::int64_t set = statements().set_of(tables.content);
+  const std::int64_t set = statements().set_of(cells);
   const auto number = statements().insert_revision.returning<std::int64_t>(
-      digest_of(tables.content), set, tables.source, now_ns, tables.parent, tables.caller);
+      digest_of_rows(cells, custom), set, tables.source, now_ns, tables.parent, tables.caller);
   for (const CustomRow& row : custom) {
     std::apply([&](const auto&... values) { statements().insert_custom.run(number, values...); },
                row);
