@@ -167,10 +167,12 @@ void check_classes(const StandardTables& tables, Findings& findings) {
   for (std::uint16_t id = 0; id < kStandardClassCount; ++id) {
     const ToleranceClass c = standard_class(ClassId{id});
     const auto deviations = derive(tables, c, ranges);
+    const Column tolerances =
+        tables.tolerances.column(grade_column(static_cast<std::size_t>(c.grade)));
     for (std::size_t i = 0; i < ranges.size(); ++i) {
       if (!deviations[i]) continue;
       const auto& [upper, lower] = *deviations[i];
-      if (upper - lower != standard_tolerance(tables, c.grade, ranges[i])) {
+      if (upper - lower != tolerances[tables.tolerances.index_of(ranges[i])]) {
         findings.push_back(finding(kGrades, ranges[i], name(c), "upper - lower is not IT"));
       }
       if (c.letter == DeviationLetter::JS && upper != -lower) {
