@@ -57,8 +57,8 @@ class Classes(ControlTest):
         for diameter, verdict in parts.items():
             run = self.gauge(size, tolerance_class, diameter)
             q = run["parameters"]
-            result = (run["status"], run["verdict"], q.get("Q23"), q.get("Q33"))
-            if result != ("completed", verdict, upper, lower):
+            result = (run["status"], run["verdict"], q.get("Q23"), q.get("Q33"), round(q.get("Q153", 0), 6))
+            if result != ("completed", verdict, upper, lower, diameter):
                 found.append((size, tolerance_class, diameter, result))
         return found
 
