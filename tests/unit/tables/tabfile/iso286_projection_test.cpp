@@ -63,19 +63,14 @@ TEST_CASE("rows 2i and 2i + 1 hold the end of range i and its deviations") {
   CHECK(*holes.number(0, "BEREICH") == 3.0);
   CHECK(*holes.number(12, "BEREICH") == 30.0);
   CHECK(*holes.number(13, "BEREICH") == 30.0);
-  CHECK(*holes.number(12, "H7") == 21.0);
-  CHECK(*holes.number(13, "H7") == 0.0);
   CHECK(*holes.number(45, "BEREICH") == 400.0);
   CHECK(*holes.number(81, "BEREICH") == 3150.0);
-  CHECK(*holes.number(2, "JS1") == 0.5);
   CHECK(holes.number(13, "K9").error().code == ErrorCode::TableCellEmpty);
   CHECK(holes.number(0, "J9").error().code == ErrorCode::TableColumnMissing);
   CHECK(holes.number(82, "H7").error().code == ErrorCode::TableRowMissing);
-  CHECK(*holes.number(0, "H14") == 250.0);
   const TabTable shafts = project(projected_tables_with({}), Feature::Shaft);
   CHECK(shafts.columns()[2].name == "d9");
   CHECK(shafts.columns()[24].name == "s7");
-  CHECK(*shafts.number(13, "g6") == -20.0);
 }
 
 TEST_CASE("every cell reads back exactly, by our reader and by the offsets of the column line") {
