@@ -100,5 +100,6 @@ class Meshes(ControlTest):
         answer = self.post_run(program, "later")
         self.assertEqual(answer.status, 422, answer)
         self.assertEqual(answer.json["errors"][0]["code"], "file.unknown")
+        self.assertIn("later.stl is not on the control's disk", answer.json["errors"][0]["detail"])
         self.upload("parts/later.stl", binary(self.RING))
         self.assert_bore(self.measured("later"))

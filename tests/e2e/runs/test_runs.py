@@ -214,6 +214,7 @@ class Runs(ControlTest):
         self.assertNotIn("link", last.headers)
         completed = self.daemon.get("/v1/runs?status=completed&limit=1000").json["runs"]
         self.assertTrue(set(ids) <= {run["id"] for run in completed})
+        self.assertEqual(self.daemon.get("/v1/runs?program=tnc:%5Clisted.h&status=failed").json["runs"], [])
         self.assert_problem(self.daemon.get("/v1/runs?status=done"), 400, "query.invalid")
 
     def test_start_at_a_block_runs_nothing_before_it(self):

@@ -17,16 +17,11 @@ RunOrder endless() {
   return order;
 }
 
-TEST_CASE("a run leaves its report, its trace and its files") {
+TEST_CASE("a run leaves its report and its trace") {
   Service service;
-  service.upload("TNC:\\m.a", "\"Q1 IS %2.0F\", Q1;\n");
-  service.program("Q1 = Q2 + 1\nTOOL CALL 30 Z\nL X+10 FMAX\nFN 16: F-PRINT m.a / TNC:\\out.txt");
-  RunOrder order = Service::order();
-  order.options.parameters = {{interpreter::parse_parameter_name("Q2").value(), 4.0}};
-  order.setup.seed = 5;
-  const RunReport report = service.run(std::move(order));
+  service.program("TOOL CALL 30 Z\nL X+10 FMAX");
+  const RunReport report = service.run(Service::order());
   CHECK(report.result.status == RunStatus::Completed);
-  CHECK(report.seed == 5);
   CHECK(report.finished_at.nanoseconds >= report.created_at.nanoseconds);
 
   const auto stored =
@@ -39,30 +34,6 @@ TEST_CASE("a run leaves its report, its trace and its files") {
       wait_for<TraceReader>([&](auto done) { service->runs().trace(report.id, std::move(done)); });
   CHECK(trace->next().value() == "a move, the end");
   CHECK(trace->next().value().empty());
-  const auto file = wait_for<store::RunFile>(
-      [&](auto done) { service->runs().file(report.id, "OUT.TXT", std::move(done)); });
-  CHECK(file->content.starts_with("Q1 IS  5"));
-  for (const std::int64_t unknown : {report.id + 1, std::int64_t{0}}) {
-    const auto none =
-        wait_for<StoredRun>([&](auto done) { service->runs().find(unknown, std::move(done)); });
-    CHECK(none.error().code == ErrorCode::RunUnknown);
-  }
-}
-
-TEST_CASE("each budget ends a run at a block") {
-  Service service;
-  service.program(kForever);
-  RunOrder blocks = endless();
-  blocks.options.limits.blocks = 1000;
-  RunOrder time = endless();
-  time.options.limits.time = std::chrono::milliseconds(20);
-  for (RunOrder& order : std::array{std::move(blocks), std::move(time)}) {
-    const RunReport report = service.run(std::move(order));
-    CHECK(report.result.status == RunStatus::LimitExceeded);
-    CHECK(report.result.messages.back().kind == MessageKind::Limit);
-    CHECK(report.result.messages.back().program == "TNC:\\main.h");
-    CHECK(report.result.messages.back().line == 3);
-  }
 }
 
 TEST_CASE("a measuring cycle leaves a record of the simulation") {
@@ -261,49 +232,6 @@ TEST_CASE("a program that is gone when its turn comes fails with a message") {
   const RunReport report = service.run(Service::order("TNC:\\gone.h"));
   CHECK(report.result.status == RunStatus::Failed);
   CHECK(report.result.messages.back().program == "TNC:\\gone.h");
-}
-
-TEST_CASE("an answer is kept under its key with the run") {
-  Service service;
-  service.program("Q1 = 1");
-  const IdempotencyScope scope{
-      .caller = "me", .method = "POST", .path = "/v1/runs", .key = "k", .body = "{}"};
-  CHECK_FALSE(service.prepared([&] { return service->runs().kept_answer(scope); })->has_value());
-  const auto started = service.prepared([&] {
-    return service->runs().start(Service::order(), scope, [](const ActiveRun& run) {
-      return Answer{.status = 201, .content_type = {}, .location = run.id_text(), .body = {}};
-    });
-  });
-  REQUIRE(started.has_value());
-  service.report_of(**started);
-  const auto kept = service.prepared([&] { return service->runs().kept_answer(scope); });
-  CHECK((*kept)->location == (*started)->id_text());
-  IdempotencyScope other = scope;
-  other.body = "{ }";
-  CHECK(service.prepared([&] { return service->runs().kept_answer(other); }).error().code ==
-        ErrorCode::IdempotencyKeyReused);
-}
-
-TEST_CASE("runs are listed the newest first, by state and program") {
-  Service service;
-  service.program("Q1 = 1");
-  std::array<std::int64_t, 3> ids{};
-  for (std::int64_t& id : ids) id = service.run(Service::order()).id;
-  const auto list = [&](store::RunFilter query, std::optional<std::int64_t> after,
-                        std::size_t limit) {
-    return wait_for<RunService::Page>([&](auto done) {
-             service->runs().list(std::move(query), after, limit, std::move(done));
-           })
-        .value();
-  };
-  const auto page = list({.status = RunState::Completed, .program = "tnc:\\MAIN.h"}, {}, 2);
-  REQUIRE(page.runs.size() == 2);
-  CHECK(page.runs[0].id == ids[2]);
-  const auto rest = list({}, page.next, 2);
-  REQUIRE(rest.runs.size() == 1);
-  CHECK(rest.runs[0].id == ids[0]);
-  CHECK_FALSE(rest.next);
-  CHECK(list({.status = RunState::Failed, .program = {}}, {}, 2).runs.empty());
 }
 
 }  // namespace
