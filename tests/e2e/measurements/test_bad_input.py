@@ -43,6 +43,7 @@ class BadInput(DaemonTest):
                            ([row] * 150, " (and 149 more); the first 100 are listed")):
             problem = self.daemon.measure(rows, JSON).json
             self.assertEqual(problem["detail"], problem["errors"][0]["detail"] + more)
+        self.assertEqual(len(problem["errors"]), 100)
         csv = "designation,measured_mm\n25 H7,25.01\n" + "25 H7,\n" * 3
         ndjson = json.dumps(GOOD) + "\n" + (json.dumps(row) + "\n") * 3
         for body, media_type, line in ((csv, "text/csv", 3), (ndjson, "application/x-ndjson", 2)):

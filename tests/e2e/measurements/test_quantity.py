@@ -40,7 +40,7 @@ class Quantity(DaemonTest):
                          {"basis": "none", "measured_mm": -50.08, "quantity": "position", "source": "gauge",
                           "part_id": "U", "characteristic": "free"})
         sized = self.record(measured_mm=25.013, nominal_mm=25, quantity="diameter", part_id="U", characteristic="free")
-        self.assertEqual((sized["deviation_um"], sized["size_operator"]), (13, "LP"))
+        self.assertEqual((sized["basis"], sized["deviation_um"], sized["size_operator"]), ("none", 13, "LP"))
         judged = self.record(designation="25 H7", measured_mm=25.01, part_id="U", characteristic="bore")
         found = self.daemon.get("/v1/measurements?part_id=U&verdict=unjudged").json["measurements"]
         self.assertEqual(found, [record, sized])

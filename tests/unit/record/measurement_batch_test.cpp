@@ -17,24 +17,27 @@ const iso286::ToleranceTables& tables() {
   return kTables;
 }
 
+BatchContext now() { return {.tables = tables(), .received_at = {1'000'000'000}}; }
+
 /// The body with the padding the HTTP engine gives it. Batches are views of it, so it is kept.
-Result<MeasurementBatch> decode(std::string body, std::string_view type = "application/json") {
+Result<MeasurementBatch> decode(std::string body, std::string_view type = "application/json",
+                                const BatchContext& context = now()) {
   static std::vector<std::unique_ptr<std::string>> kept;
   const std::size_t size = body.size();
   body.append(64, '\0');
   kept.push_back(std::make_unique<std::string>(std::move(body)));
   MeasurementBatch batch;
   const auto decoded =
-      decode_measurements(std::string_view(*kept.back()).substr(0, size), type,
-                          {.tables = tables(), .received_at = {1'000'000'000}}, batch);
+      decode_measurements(std::string_view(*kept.back()).substr(0, size), type, context, batch);
   if (!decoded) return decoded.error();
   return batch;
 }
 
 /// The one row of a batch. Its texts are views of the batch, so that is kept too.
-app::Measurement one(std::string body, std::string_view type = "application/json") {
+app::Measurement one(std::string body, std::string_view type = "application/json",
+                     const BatchContext& context = now()) {
   static std::vector<MeasurementBatch> kept;
-  auto batch = decode(std::move(body), type);
+  auto batch = decode(std::move(body), type, context);
   REQUIRE(batch.has_value());
   REQUIRE(batch->rows.size() == 1);
   kept.push_back(*std::move(batch));
@@ -42,8 +45,9 @@ app::Measurement one(std::string body, std::string_view type = "application/json
 }
 
 /// "pointer code" of every entry, with "@line" where there is one.
-std::vector<std::string> complaints(std::string body, std::string_view type = "application/json") {
-  const auto batch = decode(std::move(body), type);
+std::vector<std::string> complaints(std::string body, std::string_view type = "application/json",
+                                    const BatchContext& context = now()) {
+  const auto batch = decode(std::move(body), type, context);
   REQUIRE(batch.has_error());
   REQUIRE(batch.error().code == ErrorCode::RequestInvalid);
   std::vector<std::string> found;
@@ -59,22 +63,6 @@ using Complaints = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("an object is judged by its class") {
-  const auto m = one(R"({"designation":"25 H7","measured_mm":25.0215,"part_id":"SN-1"})");
-  CHECK(m.measured == Length::nanometres(25'021'500));
-  CHECK(m.result.verdict == gauging::Verdict::Reject);
-  CHECK(m.result.excess == Length::nanometres(500));
-  CHECK(m.part_id == "SN-1");
-  CHECK(m.measured_at.nanoseconds == 1'000'000'000);
-}
-
-TEST_CASE("measured values are rounded to the nanometre, nominal sizes are not") {
-  CHECK(one(R"({"designation":"25 H7","measured_mm":25.005884000000002})").measured ==
-        Length::nanometres(25'005'884));
-  CHECK(complaints(R"({"nominal_mm":25.0000001,"tolerance_class":"H7","measured_mm":25})") ==
-        Complaints{"/nominal_mm length.too_fine"});
-}
-
 TEST_CASE("every bad field of every row is reported with its pointer") {
   CHECK(complaints(R"([{"designation":"25 H7","measured_mm":25},
                        {"designation":"25 H19","measured_mm":null,"x":1},
@@ -87,15 +75,7 @@ TEST_CASE("every bad field of every row is reported with its pointer") {
 }
 
 TEST_CASE("unreadable JSON is no request with bad fields") {
-  CHECK(decode(R"({"designation":"25 H7","measured_mm":25)").error().code ==
-        ErrorCode::JsonMalformed);
-  CHECK(decode(R"({"measured_mm":25,"measured_mm":25})").error().code ==
-        ErrorCode::JsonDuplicateKey);
   CHECK(decode(R"({"x":25,"x":25})").error().code == ErrorCode::JsonDuplicateKey);
-  CHECK(decode(R"({"designation":"25 H7","measured_mm":025})").error().code ==
-        ErrorCode::JsonMalformed);
-  CHECK(decode(R"({"designation":"25 H7","measured_mm":25.013abc})").error().code ==
-        ErrorCode::JsonMalformed);
   CHECK(decode(R"([{"designation":"25 H7","measured_mm":25}] [])").error().code ==
         ErrorCode::JsonMalformed);
   CHECK(decode("\xEF\xBB\xBF{}").error().code == ErrorCode::TextEncoding);
@@ -133,14 +113,6 @@ TEST_CASE("limits are given once, in one of three ways") {
         Complaints{"/upper_um limits.invalid"});
 }
 
-TEST_CASE("a guard band needs its uncertainty") {
-  CHECK(complaints(R"({"designation":"25 H7","measured_mm":25,"rule":"guard_band"})") ==
-        Complaints{"/uncertainty_um field.missing"});
-  const auto m = one(
-      R"({"designation":"25 H7","measured_mm":25.02,"rule":"guard_band","uncertainty_um":0.8})");
-  CHECK(m.result.verdict == gauging::Verdict::Indeterminate);
-}
-
 TEST_CASE("what a spreadsheet would run as a formula is guarded in CSV, and read back as it was") {
   const std::pair<const char*, const char*> rows[] = {
       {"=HYPERLINK(A1)", "'=HYPERLINK(A1)"},
@@ -164,15 +136,7 @@ TEST_CASE("what a spreadsheet would run as a formula is guarded in CSV, and read
   CHECK(batch->rows.front().comment == "=1");
 }
 
-TEST_CASE("CSV of both dialects is read, empty cells are not given") {
-  const auto m =
-      one("\xEF\xBB\xBF"
-          "designation;measured_mm;part_id;comment\r\n25,5 H7;25,5005;\"a;b\";\r\n",
-          "text/csv");
-  CHECK(m.nominal_size == Length::nanometres(25'500'000));
-  CHECK(m.measured == Length::nanometres(25'500'500));
-  CHECK(m.part_id == "a;b");
-  CHECK_FALSE(m.comment.has_value());
+TEST_CASE("CSV names column, row and line of what is wrong") {
   CHECK(one("nominal_mm,tolerance_class,measured_mm\n\"25,5\",H7,25.5\n", "text/csv").measured ==
         Length::nanometres(25'500'000));
   CHECK(complaints("designation,measured_mm,x\n25 H7,25,1\n25 H7,,2\n", "text/csv") ==
@@ -189,17 +153,6 @@ TEST_CASE("NDJSON names row and line") {
       decode("{\"designation\":\"25 H7\",\"measured_mm\":25}\n{\n", "application/x-ndjson");
   CHECK(broken.error().code == ErrorCode::JsonMalformed);
   CHECK(broken.error().where == "line 2");
-}
-
-TEST_CASE("no more than a hundred bad fields are listed, all are counted") {
-  std::string body = "[";
-  for (int i = 0; i < 150; ++i) body += R"({"designation":"25 H7"},)";
-  body.back() = ']';
-  const auto batch = decode(body);
-  REQUIRE(batch.has_error());
-  CHECK(batch.error().details.size() == 100);
-  CHECK(batch.error().message ==
-        batch.error().details.front().message + " (and 149 more); the first 100 are listed");
 }
 
 namespace {
@@ -246,7 +199,7 @@ Pieces in_pieces(std::string& body, std::string_view type) {
   const std::size_t size = body.size();
   body.append(64, '\0');
   const std::string_view text = std::string_view(body).substr(0, size);
-  BatchContext context{.tables = tables(), .received_at = {1'000'000'000}};
+  BatchContext context = now();
   context.take = [&](std::vector<app::Measurement> rows) {
     pieces.taken.push_back(std::move(rows));
   };
@@ -326,9 +279,7 @@ TEST_CASE("a wrong row is named when rows before it were taken already, and so a
   CHECK(pieces.decoded.error().details[1].where == "/1001/x");
 }
 
-TEST_CASE(
-    "a gauge in use says its uncertainty where the rule needs one, and that it is overdue or "
-    "blocked") {
+TEST_CASE("a gauge in use is overdue after its last nanosecond, and says what counts then") {
   const Timestamp due = parse_rfc3339("2026-03-31T23:59:59.999999999Z").value();
   const GaugeBook book = {{"G-07",
                            {{{.budget = "ring",
@@ -338,59 +289,29 @@ TEST_CASE(
                               .certificate = "K-1"}}}},
                           {"G-08", {{{.calibration_due = "2026-03-31", .due = due}}}},
                           {"G-10", {{{.certificate = "K-1", .is_blocked = true}}}}};
-  const auto judged = [&](const std::string& fields, std::string_view type = "application/json") {
-    const std::string body = R"({"designation":"25 H7","measured_mm":25.0005)" + fields + "}";
-    const std::string padded = body + std::string(64, '\0');
-    MeasurementBatch batch;
-    const BatchContext context{
-        .tables = tables(), .received_at = {due.nanoseconds + 1}, .gauges = &book};
-    const auto decoded =
-        decode_measurements(std::string_view(padded).substr(0, body.size()), type, context, batch);
-    REQUIRE_MESSAGE(decoded.has_value(), (decoded ? "" : decoded.error().details[0].message));
-    std::string out;
-    app::append_record(out, batch.rows.front());
-    return out;
-  };
-  const auto has = [](const std::string& record, std::string_view text) {
-    return record.find(text) != std::string::npos;
+  BatchContext context{.tables = tables(), .received_at = {due.nanoseconds + 1}, .gauges = &book};
+  const auto judged = [&](const std::string& fields, std::string_view type) {
+    return one(R"({"designation":"25 H7","measured_mm":25.0005)" + fields + "}", type, context);
   };
   for (const std::string_view type : {"application/json", "application/x-ndjson"}) {
     CAPTURE(type);
-    const std::string needed = judged(R"(,"gauge":"G-07","rule":"guard_band")", type);
-    CHECK(has(needed, R"("uncertainty":"ring","uncertainty_um":0.501,)"));
-    CHECK(has(needed, R"("verdict":"indeterminate")"));
-    CHECK(has(needed, R"("calibration_due":"2026-03-31","calibration_overdue":true,)"));
-    const std::string given =
-        judged(R"(,"gauge":"G-07","rule":"guard_band","uncertainty_um":0.1)", type);
-    CHECK_FALSE(has(given, "\"uncertainty\":"));
-    CHECK(has(given, R"("verdict":"good")"));
-    const std::string in_time = judged(
+    const auto late = judged(R"(,"gauge":"G-07","rule":"guard_band")", type);
+    CHECK(late.uncertainty_budget == "ring");
+    CHECK(late.calibration_due == "2026-03-31");
+    CHECK_FALSE(late.calibration_certificate);
+    const auto in_time = judged(
         R"(,"gauge":"G-07","rule":"conformance","measured_at":"2026-03-31T23:59:59.999999999Z")",
         type);
-    CHECK(has(in_time, R"("uncertainty":"ring")"));
-    CHECK(has(in_time, R"("calibration_certificate":"K-1",)"));
-    CHECK_FALSE(has(in_time, "calibration_due"));
-    CHECK_FALSE(has(needed, "K-1"));
-    const std::string simple = judged(R"(,"gauge":"G-07")", type);
-    CHECK_FALSE(has(simple, "\"uncertainty"));
-    CHECK(has(simple, "calibration_overdue"));
-    CHECK_FALSE(has(judged(R"(,"gauge":"G-09")", type), "calibration"));
-    CHECK_FALSE(has(simple, "blocked"));
-    const std::string blocked = judged(R"(,"gauge":"G-10")", type);
-    CHECK(has(blocked, R"("gauge":"G-10","gauge_blocked":true,)"));
-    CHECK_FALSE(has(blocked, "calibration"));
+    CHECK(in_time.calibration_certificate == "K-1");
+    CHECK_FALSE(in_time.calibration_due);
+    const auto blocked = judged(R"(,"gauge":"G-10")", type);
+    CHECK(blocked.gauge_blocked);
+    CHECK_FALSE(blocked.calibration_certificate);
   }
   for (const char* gauge : {"G-08", "G-09"}) {
-    const std::string body = std::string(R"({"designation":"25 H7","measured_mm":25,"gauge":")") +
-                             gauge + R"(","rule":"guard_band"})";
-    const std::string padded = body + std::string(64, '\0');
-    MeasurementBatch batch;
-    const auto decoded =
-        decode_measurements(std::string_view(padded).substr(0, body.size()), "application/json",
-                            {.tables = tables(), .received_at = due, .gauges = &book}, batch);
-    REQUIRE(decoded.has_error());
-    CHECK(decoded.error().details.at(0).code == ErrorCode::FieldMissing);
-    CHECK(decoded.error().details.at(0).where == "/uncertainty_um");
+    CHECK(complaints(std::string(R"({"designation":"25 H7","measured_mm":25,"gauge":")") + gauge +
+                         R"(","rule":"guard_band"})",
+                     "application/json", context) == Complaints{"/uncertainty_um field.missing"});
   }
 }
 

@@ -35,19 +35,7 @@ bool has(const std::string& record, std::string_view text) {
 
 }  // namespace
 
-TEST_CASE("a value without limits has none, and nothing that follows from them") {
-  const std::string bare = judged(R"({"measured_mm":-50.08,"quantity":"position"})");
-  CHECK(bare.starts_with(R"({"basis":"none","id":)"));
-  CHECK(has(bare, R"("measured_mm":-50.08,"quantity":"position",)"));
-  for (const char* absent : {"limit", "deviation", "nominal", "uncertainty", "rule", "verdict",
-                             "excess", "feature", "tolerance", "size_operator"}) {
-    CAPTURE(absent);
-    CHECK(bare.find(absent) == std::string::npos);
-  }
-  const std::string with_nominal =
-      judged(R"({"measured_mm":25.013,"nominal_mm":25,"quantity":"diameter"})");
-  CHECK(has(with_nominal, R"("basis":"none","deviation_um":13,)"));
-  CHECK(has(with_nominal, R"("nominal_mm":25,)"));
+TEST_CASE("what needs limits or a size is refused where there is none") {
   CHECK(judged(R"({"measured_mm":25,"quantity":"diameter","rule":"guard_band"})") ==
         "/rule field.conflict");
   CHECK(judged(R"({"measured_mm":25,"quantity":"diameter","uncertainty_um":1})") ==
@@ -131,18 +119,7 @@ TEST_CASE("limits of a drawing have a feature for sizes alone, and a sign for wh
   CHECK(drawn(R"("quantity":"angle","nominal_mm":5,"measured_mm":5)") == "/quantity field.invalid");
 }
 
-TEST_CASE("degrees of freedom count, also with what a correction to 20 degrees adds") {
-  const std::string two = judged(
-      R"({"designation":"25 H7","measured_mm":25.0175,"uncertainty_um":1,"rule":"guard_band",)"
-      R"("degrees_of_freedom":2})");
-  CHECK(has(two, R"("coverage_factor":4.526551,)"));
-  CHECK(has(two, R"("degrees_of_freedom":2,)"));
-  CHECK(has(two, R"("verdict":"indeterminate")"));
-  const std::string given = judged(
-      R"({"designation":"25 H7","measured_mm":25.0175,"uncertainty_um":1,"rule":"guard_band",)"
-      R"("degrees_of_freedom":2,"coverage_factor":2})");
-  CHECK(has(given, R"("coverage_factor":2,)"));
-  CHECK(has(given, R"("verdict":"good")"));
+TEST_CASE("degrees of freedom count with what a correction to 20 degrees adds") {
   const std::string warm =
       judged(R"({"designation":"25 H7","measured_mm":25.01,"uncertainty_um":1,"rule":"guard_band",)"
              R"("degrees_of_freedom":2,"temperature_c":20,"part_material":"steel",)"
@@ -159,18 +136,11 @@ TEST_CASE("an envelope is verified by a GO gauge alone") {
     return judged(R"({"designation":")" + designation + R"(","measured_mm":)" + measured + more +
                   "}");
   };
-  for (const char* designation : {"25H7(E)", "25 H7 (E)", "25 H7 \xE2\x92\xBA"}) {
-    CAPTURE(designation);
-    const std::string found = record(designation, "25.01", "");
-    CHECK(has(found, R"("designation":"25 H7",)"));
-    CHECK(has(found, R"("envelope":"required","envelope_result":"not_verified")"));
-    CHECK(has(found, R"("size_operator":"LP")"));
-  }
+  const std::string open = record("25 H7 (E)", "25.01", "");
+  CHECK(has(open, R"("designation":"25 H7",)"));
+  CHECK(has(open, R"("envelope":"required","envelope_result":"not_verified")"));
   CHECK(has(record("25H7(E)", "25.01", R"(,"go_gauge":"passes")"),
             R"("envelope_result":"verified")"));
-  const std::string fails = record("25H7(E)", "25.01", R"(,"go_gauge":"fails")");
-  CHECK(has(fails, R"("envelope_result":"failed")"));
-  CHECK(has(fails, R"("verdict":"rework")"));
   CHECK(has(record("25H7(E)", "25.03", R"(,"go_gauge":"fails")"), R"("verdict":"reject")"));
   CHECK(has(record("25h6(E)", "24.99", R"(,"go_gauge":"fails")"), R"("verdict":"rework")"));
   CHECK(record("25H7", "25.01", R"(,"go_gauge":"fails")") == "/envelope field.missing");
