@@ -42,7 +42,7 @@ TEST_CASE("entity tags compare weakly for If-None-Match and strongly for If-Matc
   CHECK_FALSE(names_etag_strongly("1", R"("1")"));
 }
 
-TEST_CASE("a listener is asked on this machine by an address of its own family") {
+TEST_CASE("listen addresses are read whole, and are asked by one of their own family") {
   const auto own = [](std::string_view text) {
     return parse_listen_address(text).value().own_address();
   };
@@ -51,8 +51,12 @@ TEST_CASE("a listener is asked on this machine by an address of its own family")
   CHECK(own("[::1]:1") == "[::1]:1");
   CHECK(own("10.0.0.9:8286") == "10.0.0.9:8286");
   CHECK(own("localhost:8286") == "127.0.0.1:8286");
-  for (const char* nonsense : {"", ":0", "nonsense:1", "256.1.1.1:0", "127.0.0.1", "127.0.0.1:",
-                               "127.0.0.1:65536", "127.0.0.1:x", "::1:80", "[127.0.0.1]:80"}) {
+  CHECK(parse_listen_address("127.0.0.1:8286")->port == 8286);
+  CHECK(parse_listen_address("[::1]:80")->is_loopback());
+  CHECK_FALSE(parse_listen_address("0.0.0.0:80")->is_loopback());
+  for (const char* nonsense :
+       {"", ":0", "8286", "nonsense:1", "256.1.1.1:0", "127.0.0.1", "127.0.0.1:", "127.0.0.1:65536",
+        "127.0.0.1:x", "::1:80", "[127.0.0.1]:80", "127.0.0.1:80 "}) {
     CAPTURE(nonsense);
     CHECK_FALSE(parse_listen_address(nonsense).has_value());
   }
