@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "formats/dfq/lines.hpp"
+#include "unit/formats/dfq/values.hpp"
 
 namespace fitgauge::aqdef {
 namespace {
@@ -60,34 +61,13 @@ TEST_CASE("a file as others read it") {
         "K2001/2 Seat\r\nK2002/2 Seat\r\nK2004/2 0\r\nK2022/2 4\r\nK2101/2 8\r\nK2111/2 8\r\n"
         "K2113/2 0\r\nK2120/2 0\r\nK2121/2 1\r\nK2142/2 mm\r\nK2800/2 fitgauge\r\nK2801/2 A\r\n"
         "K2802/2 feature=shaft;rule=guard_band;uncertainty_um=0.8\r\n"
-        "K4062/1 M3\r\nK4062/2 M4\r\nK4072/1 Plug\r\nK4092/1 Erika\r\n"
-        "25.0131\x14"
-        "0\x14"
-        "22.11.2026/08:00:00\x14"
-        "100\x14#B7\x14"
-        "0\x14"
-        "1\x14"
-        "1\x14\x14"
-        "1\x0F"
-        "7.9955\x14"
-        "0\x14"
-        "22.11.2026/08:00:00\x14\x14#B7\x14"
-        "0\x14"
-        "1\x14"
-        "2\x14\x14"
-        "1\r\n"
-        "K0009/1 first\r\nK0014/1 SN-1\r\nK0053/1 WO-9\r\nK0097/1 {A}\r\n"
-        "K0014/2 SN-1\r\nK0053/2 WO-9\r\nK0097/2 {5F0C9A3E-77D2-1B40-0000-000000000002}\r\n"
-        "25.000005\x14"
-        "0\x14"
-        "22.11.2026/08:00:00\x14"
-        "100\x14#B7\x14"
-        "0\x14"
-        "1\x14"
-        "1\x14\x14"
-        "1\x0F\x14"
-        "256\r\n"
-        "K0009/1 first\r\nK0014/1 SN-1\r\nK0053/1 WO-9\r\nK0097/1 {A}\r\n");
+        "K4062/1 M3\r\nK4062/2 M4\r\nK4072/1 Plug\r\nK4092/1 Erika\r\n" +
+            values("25.0131|0|22.11.2026/08:00:00|100|#B7|0|1|1||1;"
+                   "7.9955|0|22.11.2026/08:00:00||#B7|0|1|2||1\r\n") +
+            "K0009/1 first\r\nK0014/1 SN-1\r\nK0053/1 WO-9\r\nK0097/1 {A}\r\n"
+            "K0014/2 SN-1\r\nK0053/2 WO-9\r\nK0097/2 {5F0C9A3E-77D2-1B40-0000-000000000002}\r\n" +
+            values("25.000005|0|22.11.2026/08:00:00|100|#B7|0|1|1||1;|256\r\n") +
+            "K0009/1 first\r\nK0014/1 SN-1\r\nK0053/1 WO-9\r\nK0097/1 {A}\r\n");
 }
 
 // What a certification of the format looks at; no certificate is claimed.
@@ -221,13 +201,8 @@ TEST_CASE("a simulated measurement is refused") {
 TEST_CASE("numbers of nothing are 0") {
   Measurement value = bore(1, 0);
   value.machine = value.operator_id = value.gauge = value.comment = value.subgroup = {};
-  CHECK(written({value}).find("25\x14"
-                              "0\x14"
-                              "22.11.2026/08:00:00\x14\x14\x14"
-                              "0\x14"
-                              "0\x14"
-                              "0\x14\x14"
-                              "0\r\n") != std::string::npos);
+  CHECK(written({value}).find(values("25|0|22.11.2026/08:00:00|||0|0|0||0\r\n")) !=
+        std::string::npos);
 }
 
 TEST_CASE("times are of the zone") {

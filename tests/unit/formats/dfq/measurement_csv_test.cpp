@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "unit/formats/dfq/values.hpp"
+
 namespace fitgauge::aqdef {
 namespace {
 
@@ -59,17 +61,8 @@ TEST_CASE("a value with all its fields is a measurement") {
   const std::string text =
       "K0100 1\r\nK1001/1 4711\r\nK1002/1 Housing\r\nK1086/1 OP20\r\nK1303/1 Hall 3\r\n"
       "K2001/1 1\r\nK2002/1 Bore\r\n" +
-      kH7 +
-      "K4062/3 M3\r\nK4072/2 Plug 25\r\nK4092/7 Mustermann\r\nK4093/7 Erika\r\n"
-      "2.50100000000000E+0001\x14"
-      "0\x14"
-      "20.11.2026/08:00:00\x14"
-      "100,101\x14#B7\x14"
-      "4\x14"
-      "7\x14"
-      "3\x14"
-      "1/20.5\x14"
-      "2\r\n"
+      kH7 + "K4062/3 M3\r\nK4072/2 Plug 25\r\nK4092/7 Mustermann\r\nK4093/7 Erika\r\n" +
+      values("2.50100000000000E+0001|0|20.11.2026/08:00:00|100,101|#B7|4|7|3|1/20.5|2\r\n") +
       "K0009/1 first part\r\nK0014/1 SN-1\r\nK0053/1 WO-9\r\nK0054/1 x|y\r\nK0097/1 {7A4B}\r\n";
   CHECK(rows_of(text) ==
         "measured_mm=25.01 nominal_mm=25 tolerance_class=H7 part_id=SN-1 characteristic=Bore "
@@ -155,43 +148,24 @@ TEST_CASE("what no measurement can hold may be left out") {
   const std::string text =
       "K0100 3\nK2001/1 1\n" + kH7 +
       "K2002/2 Flatness\nK2101/2 0\nK2111/2 0.1\nK2142/2 mm\nK2002/3 Scratch\nK2004/3 1\n";
-  CHECK(rows_of(text + "25.01\x0F"
-                       "0.02\x0F"
-                       "5\x14"
-                       "0\n",
-                how) == "measured_mm=25.01 nominal_mm=25 tolerance_class=H7 characteristic=1\n");
-  CHECK(rows_of(text + "25.01\x14"
-                       "7\n25.02\n",
-                how)
-            .starts_with("measured_mm=25.02"));
-  CHECK(rows_of(text + "25.01\x0F"
-                       "0.02\n")
-            .find("leave_out stores the other characteristics") != std::string::npos);
+  CHECK(rows_of(text + values("25.01;0.02;5|0\n"), how) ==
+        "measured_mm=25.01 nominal_mm=25 tolerance_class=H7 characteristic=1\n");
+  CHECK(rows_of(text + values("25.01|7\n25.02\n"), how).starts_with("measured_mm=25.02"));
+  CHECK(rows_of(text + values("25.01;0.02\n")).find("leave_out stores the other characteristics") !=
+        std::string::npos);
   CHECK(rows_of("K0100 1\nK2002/1 Flatness\nK2101/1 0\nK2111/1 0.1\nK2142/1 mm\n0.02\n", how) ==
         "error: all values were left out: no characteristic of the file is a length with a nominal "
         "size and limits");
 }
 
 TEST_CASE("attributes") {
-  CHECK(rows_of(file(kH7,
-                     "25.01\x14"
-                     "0\n\x14"
-                     "255\n1\x14"
-                     "256\n25.02\n"))
-            .find("256") == std::string::npos);
-  CHECK(rows_of(file(kH7,
-                     "\x14"
-                     "255\n")) ==
+  CHECK(rows_of(file(kH7, values("25.01|0\n|255\n1|256\n25.02\n"))).find("256") ==
+        std::string::npos);
+  CHECK(rows_of(file(kH7, values("|255\n"))) ==
         "error: the file has no measured value; a DFD is read together with its DFX, of the same "
         "name");
-  CHECK(rows_of(file(kH7,
-                     "25.01\x14"
-                     "3\n"))
-            .find("error: line 9 has attribute 3") == 0);
-  CHECK(rows_of(file(kH7,
-                     "\x14"
-                     "0\x14"
-                     "20.11.2026/08:00:00\n"))
+  CHECK(rows_of(file(kH7, values("25.01|3\n"))).find("error: line 9 has attribute 3") == 0);
+  CHECK(rows_of(file(kH7, values("|0|20.11.2026/08:00:00\n")))
             .find("error: line 9 has no value of characteristic 1") == 0);
   CHECK(rows_of(file(kH7, "25.0.1\n"))
             .find("error: line 9 has the value '25.0.1', which is not a length") == 0);
@@ -236,11 +210,7 @@ TEST_CASE("which times are read") {
   const auto at = [](const std::string& time, bool zone = true) {
     MeasurementOptions how = options();
     if (!zone) how.zone.reset();
-    const std::string rows = rows_of(file(kH7,
-                                          "25.01\x14"
-                                          "0\x14" +
-                                              time + "\r\n"),
-                                     how);
+    const std::string rows = rows_of(file(kH7, values("25.01|0|") + time + "\r\n"), how);
     const std::size_t from = rows.find("measured_at=");
     return from == rows.npos ? rows
                              : rows.substr(from + 12, rows.find_first_of(" \n", from) - from - 12);
@@ -274,9 +244,7 @@ TEST_CASE("texts that all values share are bounded, and a line of values comes i
     for (const char* field : {"K2101/{} 25", "K2103/{} H", "K2104/{} 7", "K2142/{} mm"}) {
       described += fmt::format(fmt::runtime(field), index) + "\r\n";
     }
-    values += index == 1 ? "25.01"
-                         : "\x0F"
-                           "25.01";
+    values += std::string(index == 1 ? "" : "\x0F") + "25.01";
   }
   MeasurementCsv csv(read_text(described += values + "\r\n"), options());
   std::string rows;

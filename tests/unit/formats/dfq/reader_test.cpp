@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "formats/dfq/lines.hpp"
+#include "unit/formats/dfq/values.hpp"
 
 namespace fitgauge::aqdef {
 namespace {
@@ -73,21 +74,14 @@ TEST_CASE("a line is cut at every separator, wherever it stands in a block") {
 }
 
 TEST_CASE("values stand in lines, with their fields below them") {
-  CHECK(read(kTwo + "25.01\x14"
-                    "0\x14"
-                    "20.11.2026/08:00:00\x0F"
-                    "7,5\x14"
-                    "0\r\n"
-                    "K0014/1 SN-1\r\nK0053/0 WO\r\n"
-                    "\x14"
-                    "255\x0F"
-                    "7.6\r\nK0097/2 {G}\r\n") ==
+  CHECK(read(kTwo + values("25.01|0|20.11.2026/08:00:00;7,5|0\r\n") +
+             "K0014/1 SN-1\r\nK0053/0 WO\r\n" + values("|255;7.6\r\n") + "K0097/2 {G}\r\n") ==
         "1:[25.01][0][20.11.2026/08:00:00] K0014 SN-1 K0053 WO\n"
         "2:[7,5][0] K0053 WO\n"
         "1:[][255]\n"
         "2:[7.6] K0097 {G}\n");
   // A separator behind the last value, LF alone, and lines without text.
-  CHECK(read("K0100 1\n\nK2001/1 1\n5.1\x0F\n5.2\n  \n") == "1:[5.1]\n1:[5.2]\n");
+  CHECK(read(values("K0100 1\n\nK2001/1 1\n5.1;\n5.2\n  \n")) == "1:[5.1]\n1:[5.2]\n");
 }
 
 TEST_CASE("values stand in fields") {
@@ -101,9 +95,7 @@ TEST_CASE("values stand in fields") {
 
 TEST_CASE("each part has its characteristics, and its values may stand behind it") {
   CHECK(read(lines({"K0100 2", "K1001/1 A", "K2001/1 1", "5.0", "K1001/2 B", "K2001/2 1",
-                    "\x14"
-                    "256\x0F"
-                    "6.0"})) == "1:[5.0]\n1:[][256]\n2:[6.0]\n");
+                    values("|256;6.0")})) == "1:[5.0]\n1:[][256]\n2:[6.0]\n");
   Reader reader(read_text(kTwo));
   ValueSet set;
   REQUIRE(!reader.next(set).value());
@@ -157,10 +149,7 @@ TEST_CASE("a wrong file names its line and a remedy") {
        "line 5 is for characteristic 2, but K0100 gives 1 characteristics"},
       {kTwo + "K0100 3\r\n", "line 7 has 3 in K0100, but an earlier line has 2"},
       {kTwo + "K2002/1 Other\r\n", "line 7 has 'Other', but line 4 has 'Diameter'"},
-      {kTwo + "1\x0F"
-              "2\x0F"
-              "3\r\n",
-       "line 7 has more values than the 2 characteristics"},
+      {kTwo + values("1;2;3\r\n"), "line 7 has more values than the 2 characteristics"},
       {kTwo + "K0014/1 A\r\n1\r\n", "line 7 has K0014 before any value"},
       {kTwo + "1\r\nK0014/2 A\r\n",
        "line 8 has K0014 of characteristic 2, which has no value above it"},
@@ -190,13 +179,8 @@ TEST_CASE("a wrong file names its line and a remedy") {
 }
 
 TEST_CASE("a file that is cut anywhere is wrong, or has a line less") {
-  const std::string text = kTwo + lines({"25.01\x14"
-                                         "0\x14"
-                                         "20.11.2026/08:00:00",
-                                         "K0014/1 SN-1",
-                                         "25.02\x14"
-                                         "0",
-                                         "K0014/1 SN-2"});
+  const std::string text = kTwo + lines({values("25.01|0|20.11.2026/08:00:00"), "K0014/1 SN-1",
+                                         values("25.02|0"), "K0014/1 SN-2"});
   for (std::size_t size = 0; size < text.size(); ++size) {
     const std::string said = read(text.substr(0, size));
     const bool is_at_line_end = size > 0 && text[size - 1] == '\n';
@@ -209,12 +193,7 @@ TEST_CASE("pieces of any size read the same, also across the room that is kept")
   std::string text = kTwo;
   std::string wanted;
   for (int i = 0; text.size() < 3 * Lines::kRoom; ++i) {
-    text += fmt::format(
-        "{}.5\x14"
-        "0\x0F"
-        "7\x14"
-        "0\r\nK0014/0 SN-{}\r\n",
-        i, i);
+    text += fmt::format(fmt::runtime(values("{}.5|0;7|0\r\nK0014/0 SN-{}\r\n")), i, i);
     wanted += fmt::format("1:[{}.5][0] K0014 SN-{}\n2:[7][0] K0014 SN-{}\n", i, i, i);
   }
   CHECK(read(text) == wanted);
