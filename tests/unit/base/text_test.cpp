@@ -1,3 +1,5 @@
+#include "base/digest.hpp"
+
 #include <doctest/doctest.h>
 
 using namespace fitgauge;
@@ -29,4 +31,43 @@ TEST_CASE("names compare without regard to ASCII case") {
   CHECK_FALSE(ascii_iequals("a", "ab"));
   CHECK(trim(" \t x y ") == "x y");
   CHECK(ascii_upper("h7") == "H7");
+}
+
+TEST_CASE("every error code has a stable id of its own and a title") {
+  std::set<std::string> ids;
+  std::size_t count = 0;
+#define FITGAUGE_ERROR(name, text_id, text_title, status)               \
+  CHECK(id(ErrorCode::name) == (text_id));                              \
+  CHECK_FALSE(title(ErrorCode::name).empty());                          \
+  CHECK(std::string_view(text_id).find('.') != std::string_view::npos); \
+  ids.emplace(text_id);                                                 \
+  ++count;
+#include "base/error_codes.inc"
+#undef FITGAUGE_ERROR
+  CHECK(ids.size() == count);
+}
+
+TEST_CASE("reading a failed result is a bug and says which") {
+  const Result<int> failed = Error{ErrorCode::ClassUnknown, "no class I7"};
+  CHECK_THROWS_WITH(static_cast<void>(failed.value()), "class.unknown: no class I7");
+}
+
+// The examples of FIPS 180-4 ("abc", the empty message).
+TEST_CASE("digests are SHA-256") {
+  CHECK(to_hex(sha256("abc")) ==
+        "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  Sha256 hash;
+  CHECK(hash.update("ab").so_far() == sha256("ab"));
+  CHECK(to_hex(hash.update("c").finish()) == to_hex(sha256("abc")));
+  CHECK(to_hex(hash.finish()) ==
+        "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+}
+
+TEST_CASE("a comparison in constant time sees every byte") {
+  Digest a = sha256("a");
+  Digest b = a;
+  CHECK(equal_in_constant_time(a, b));
+  b.back() ^= 1;
+  CHECK_FALSE(equal_in_constant_time(a, b));
+  CHECK_FALSE(equal_in_constant_time(a, {}));
 }

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "gzip.hpp"
+#include "base/gzip.hpp"
 #include "test_server.hpp"
 
 using namespace fitgauge;

@@ -1,13 +1,12 @@
-#include <doctest/doctest.h>
-
 #include "test_server.hpp"
+
+#include <doctest/doctest.h>
 
 using namespace fitgauge;
 using namespace fitgauge::http;
 using namespace fitgauge::http::test;
 
 namespace {
-
 /// A route that answers its pattern and its text arguments.
 Route show(Method method, const std::string& pattern, std::vector<Parameter> parameters = {}) {
   return {.method = method,
@@ -162,4 +161,20 @@ TEST_CASE("a route table that contradicts itself is refused when it is made") {
   CHECK_THROWS_AS(make({show(Method::Get, "/x{a}")}), std::logic_error);
   CHECK_THROWS_AS(make({show(Method::Get, "/a", {{.name = "b", .place = ParameterPlace::Path}})}),
                   std::logic_error);
+}
+
+TEST_CASE("a GET is answered with Date, type and length, and the connection goes on") {
+  TestServer server({echo(Method::Get, "/a")});
+  Client client = server.connect();
+  for (int i = 0; i < 3; ++i) {
+    const auto answer = client.ask(get("/a"));
+    REQUIRE(answer);
+    CHECK(answer->status == 200);
+    CHECK(answer->head.starts_with("HTTP/1.1 200 OK\r\n"));
+    CHECK(answer->field("Content-Type") == "text/plain");
+    CHECK(answer->field("Content-Length") == "5");
+    CHECK(answer->field("Date").ends_with(" GMT"));
+    CHECK(answer->field("Connection").empty());
+    CHECK(answer->body == "fixed");
+  }
 }

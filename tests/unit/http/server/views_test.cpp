@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "gzip.hpp"
+#include "base/gzip.hpp"
 #include "test_server.hpp"
 #include "worker.hpp"
 
@@ -149,7 +149,7 @@ TEST_CASE("a request says what was sent, in every form of body and on every kind
           CAPTURE(target.sent);
           CAPTURE(form.name);
           CAPTURE(body.size());
-          const std::string bytes = form.gzip ? test::gzip(body) : body;
+          const std::string bytes = form.gzip ? gzip(body) : body;
           std::string head = fmt::format(
               "{} {} HTTP/1.1\r\nHost: gauge.example:8286\r\nContent-Type: Text/CSV\r\n"
               "Accept: text/plain\r\nX-Key: some-value\r\nIdempotency-Key: \"retry-1\"\r\n{}",
