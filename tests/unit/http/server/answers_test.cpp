@@ -16,23 +16,18 @@ Response text(std::string body) { return {200, "text/plain", std::move(body)}; }
 
 /// Answers from another thread, the later the smaller its number.
 Route slow(Worker& worker) {
-  return {.pattern = "/slow/{n}",
-          .handler =
-              [&worker](const Request& request, Responder responder) {
-                worker.run([&request, responder = std::move(responder)]() mutable {
-                  std::this_thread::sleep_for(std::chrono::milliseconds(5));
-                  responder.answer(text("slow " + std::string(*request.text("n"))));
-                });
-              },
-          .response_types = {}};
+  return answering("/slow/{n}", [&worker](const Request& request, Responder responder) {
+    worker.run([&request, responder = std::move(responder)]() mutable {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      responder.answer(text("slow " + std::string(*request.text("n"))));
+    });
+  });
 }
 
 Route fast() {
-  return {.pattern = "/fast/{n}",
-          .handler = [](const Request& request) -> Result<Response> {
-            return text("fast " + std::string(*request.text("n")));
-          },
-          .response_types = {}};
+  return answering("/fast/{n}", [](const Request& request) -> Result<Response> {
+    return text("fast " + std::string(*request.text("n")));
+  });
 }
 
 /// Answers even numbers at once, and odd ones from another thread.
@@ -120,11 +115,11 @@ TEST_CASE("answers given together leave when the batch ends") {
 
 TEST_CASE("answers that pile up before a slow reader stay whole and in order") {
   Worker worker;
-  TestServer server({{.pattern = "/fast/{n}",
-                      .handler = [](const Request& request) -> Result<Response> {
-                        return text(std::string(20'000, 'x') + std::string(*request.text("n")));
-                      },
-                      .response_types = {}},
+  TestServer server({answering("/fast/{n}",
+                               [](const Request& request) -> Result<Response> {
+                                 return text(std::string(20'000, 'x') +
+                                             std::string(*request.text("n")));
+                               }),
                      slow(worker)});
   Client client = server.connect();
   constexpr int kCount = 1500;  // 30 MB, more than any socket buffer holds
@@ -232,12 +227,8 @@ TEST_CASE("If-None-Match is answered 304 from either kind of answer") {
     return response;
   };
   const auto prepared = prepare(tagged());
-  TestServer server({{.pattern = "/plain",
-                      .handler = [&](const Request&) { return tagged(); },
-                      .response_types = {}},
-                     {.pattern = "/prepared",
-                      .handler = [&](const Request&) { return Response(prepared); },
-                      .response_types = {}},
+  TestServer server({answering("/plain", [&](const Request&) { return tagged(); }),
+                     answering("/prepared", [&](const Request&) { return Response(prepared); }),
                      {.method = Method::Post,
                       .pattern = "/plain",
                       .handler = [&](const Request&) { return tagged(); },
@@ -272,15 +263,9 @@ TEST_CASE("a body of megabytes is sent whole, shared or not, prepared or not") {
   const std::shared_ptr<const std::string> shared = bytes;
   const auto prepared = prepare(Response(200, "text/plain", shared));
   TestServer server(
-      {{.pattern = "/shared",
-        .handler = [&](const Request&) { return Response(200, "text/plain", shared); },
-        .response_types = {}},
-       {.pattern = "/own",
-        .handler = [&](const Request&) { return Response(200, "text/plain", *shared); },
-        .response_types = {}},
-       {.pattern = "/prepared",
-        .handler = [&](const Request&) { return Response(prepared); },
-        .response_types = {}}});
+      {answering("/shared", [&](const Request&) { return Response(200, "text/plain", shared); }),
+       answering("/own", [&](const Request&) { return Response(200, "text/plain", *shared); }),
+       answering("/prepared", [&](const Request&) { return Response(prepared); })});
   Client client = server.connect();
   client.send(get("/shared") + get("/own") + get("/prepared") + get("/own"));
   for (int i = 0; i < 4; ++i) {

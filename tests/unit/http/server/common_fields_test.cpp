@@ -23,23 +23,17 @@ std::vector<Route> routes_of_every_kind() {
     response.etag = "\"1\"";
     return response;
   }());
-  return {{.pattern = "/kept",
-           .handler = [](const Request&) { return Response(prepared); },
-           .response_types = {}},
-          {.pattern = "/made",
-           .handler = [](const Request&) { return Response(200, "text/plain", std::string("m")); },
-           .response_types = {}},
-          {.pattern = "/late",
-           .handler = [](const Request&, Responder responder) { responder.answer(Response(204)); },
-           .response_types = {}},
+  return {answering("/kept", [](const Request&) { return Response(prepared); }),
+          answering("/made",
+                    [](const Request&) { return Response(200, "text/plain", std::string("m")); }),
+          answering("/late",
+                    [](const Request&, Responder responder) { responder.answer(Response(204)); }),
           {.pattern = "/dropped", .handler = [](const Request&, Responder) {}},
-          {.pattern = "/streamed",
-           .handler =
-               [](const Request&) {
-                 return Response(200, "text/plain",
-                                 StreamedBody{.source = std::make_shared<OnePiece>()});
-               },
-           .response_types = {}},
+          answering("/streamed",
+                    [](const Request&) {
+                      return Response(200, "text/plain",
+                                      StreamedBody{.source = std::make_shared<OnePiece>()});
+                    }),
           {.method = Method::Post,
            .pattern = "/made",
            .handler = [](const Request&) { return Response(201); },

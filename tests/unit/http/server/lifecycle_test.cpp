@@ -66,13 +66,10 @@ TEST_CASE("the guard sees the route before the body is read and may answer itsel
 }
 
 TEST_CASE("a request knows its peer, and a proxy's field makes it remote") {
-  TestServer server({{.pattern = "/peer",
-                      .handler = [](const Request& request) -> Result<Response> {
-                        return Response(
-                            200, "text/plain",
-                            fmt::format("{} {}", request.peer_address(), request.is_local()));
-                      },
-                      .response_types = {}}});
+  TestServer server({answering("/peer", [](const Request& request) -> Result<Response> {
+    return Response(200, "text/plain",
+                    fmt::format("{} {}", request.peer_address(), request.is_local()));
+  })});
   CHECK(server.ask(get("/peer", "X-Real: 1\r\nVias: 1\r\n")).body == "127.0.0.1 true");
   for (const char* field :
        {"Forwarded", "forwarded", "X-Forwarded-For", "x-forwarded-anything", "Via", "X-Real-IP",
@@ -86,14 +83,12 @@ TEST_CASE("a request knows its peer, and a proxy's field makes it remote") {
 }
 
 TEST_CASE("header lookups are case-insensitive and lists are joined") {
-  TestServer server({{.pattern = "/h",
-                      .handler = [](const Request& request) -> Result<Response> {
-                        return Response(200, "text/plain",
-                                        fmt::format("{}|{}|{}", request.header("x-A").value_or("-"),
-                                                    request.header_list("X-a").value_or("-"),
-                                                    request.header("X-B").has_value()));
-                      },
-                      .response_types = {}}});
+  TestServer server({answering("/h", [](const Request& request) -> Result<Response> {
+    return Response(
+        200, "text/plain",
+        fmt::format("{}|{}|{}", request.header("x-A").value_or("-"),
+                    request.header_list("X-a").value_or("-"), request.header("X-B").has_value()));
+  })});
   CHECK(server.ask(get("/h", "X-A: 1\r\nx-a: 2\r\n")).body == "1|1, 2|false");
 }
 
@@ -197,13 +192,12 @@ TEST_CASE("what a hook throws ends its connection alone, and is reported") {
 TEST_CASE("a client that sends its last request and its end at once is answered and closed") {
   std::promise<void> entered;
   std::promise<void> go_on;
-  TestServer server({{.pattern = "/busy",
-                      .handler = [&](const Request&) -> Result<Response> {
-                        entered.set_value();
-                        go_on.get_future().wait();
-                        return Response(200, "text/plain", std::string("busy"));
-                      },
-                      .response_types = {}},
+  TestServer server({answering("/busy",
+                               [&](const Request&) -> Result<Response> {
+                                 entered.set_value();
+                                 go_on.get_future().wait();
+                                 return Response(200, "text/plain", std::string("busy"));
+                               }),
                      echo(Method::Get, "/a")});
   Client last = server.connect();
   CHECK(last.ask(get("/a"))->status == 200);
@@ -225,16 +219,15 @@ TEST_CASE("a client that sends its last request and its end at once is answered 
 TEST_CASE("stop finishes the request in flight, closes idle connections and accepts no more") {
   Worker worker;
   std::promise<void> entered, goes_on;
-  TestServer server({{.pattern = "/slow",
-                      .handler =
-                          [&](const Request&, Responder responder) {
-                            entered.set_value();
-                            worker.run([&, responder = std::move(responder)]() mutable {
-                              goes_on.get_future().wait();
-                              responder.answer(Response(200, "text/plain", std::string("done")));
-                            });
-                          },
-                      .response_types = {}},
+  TestServer server({answering("/slow",
+                               [&](const Request&, Responder responder) {
+                                 entered.set_value();
+                                 worker.run([&, responder = std::move(responder)]() mutable {
+                                   goes_on.get_future().wait();
+                                   responder.answer(
+                                       Response(200, "text/plain", std::string("done")));
+                                 });
+                               }),
                      echo(Method::Get, "/a")});
   Client idle = server.connect();
   CHECK(idle.ask(get("/a"))->status == 200);

@@ -21,12 +21,10 @@ std::vector<Route> limited_routes() {
   return {echo(Method::Get, "/a"),
           echo(Method::Post, "/p", {.use = BodyUse::Optional, .limit = kBodyLimit}),
           echo(Method::Post, "/whole", {.use = BodyUse::Optional, .limit = kWholeLimit}),
-          {.pattern = "/large",
-           .handler = [](const Request&) -> Result<Response> {
-             // More than sockets take. NOLINTNEXTLINE(bugprone-string-constructor)
-             return Response(200, "text/plain", std::string(20'000'000, 'x'));
-           },
-           .response_types = {}}};
+          answering("/large", [](const Request&) -> Result<Response> {
+            // More than sockets take. NOLINTNEXTLINE(bugprone-string-constructor)
+            return Response(200, "text/plain", std::string(20'000'000, 'x'));
+          })};
 }
 
 ServerOptions quick() {
@@ -137,13 +135,11 @@ TEST_CASE("a connection counts from its acceptance on, however late its I/O thre
   std::latch is_held(1);
   std::latch goes_on(1);
   std::vector<Route> routes = limited_routes();
-  routes.push_back({.pattern = "/hold",
-                    .handler = [&](const Request&) -> Result<Response> {
-                      is_held.count_down();
-                      goes_on.wait();
-                      return Response(200, "text/plain", "held");
-                    },
-                    .response_types = {}});
+  routes.push_back(answering("/hold", [&](const Request&) -> Result<Response> {
+    is_held.count_down();
+    goes_on.wait();
+    return Response(200, "text/plain", "held");
+  }));
   ServerOptions options;
   options.io_threads = 2;  // which get the connections in turn
   options.max_connections = 4;

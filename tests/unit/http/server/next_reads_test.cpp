@@ -19,13 +19,11 @@ namespace {
 class Hold {
  public:
   Route route(std::string pattern) {
-    return {.pattern = std::move(pattern),
-            .handler = [this](const Request&) -> Result<Response> {
-              entered_.set_value();
-              let_go_.get_future().wait();
-              return Response(200, "text/plain", std::string("held"));
-            },
-            .response_types = {}};
+    return answering(std::move(pattern), [this](const Request&) -> Result<Response> {
+      entered_.set_value();
+      let_go_.get_future().wait();
+      return Response(200, "text/plain", std::string("held"));
+    });
   }
   void wait_until_entered() { entered_.get_future().wait(); }
   void let_go() { let_go_.set_value(); }
@@ -154,9 +152,7 @@ TEST_CASE("who sends without end does not keep the others waiting") {
     flooded_before = flooded.load();
     return Response(200, "text/plain", std::string("one"));
   };
-  TestServer server({hold.route("/hold"),
-                     {.pattern = "/flood", .handler = counts, .response_types = {}},
-                     {.pattern = "/one", .handler = looks, .response_types = {}}});
+  TestServer server({hold.route("/hold"), answering("/flood", counts), answering("/one", looks)});
   Client holder = server.connect();
   Client flood = server.connect();
   Client one = server.connect();

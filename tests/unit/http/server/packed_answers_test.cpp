@@ -77,31 +77,27 @@ std::vector<Route> sized_routes() {
            },
        .parameters = size,
        .response_types = {}},
-      {.pattern = "/stream",
-       .handler =
-           [](const Request&) {
-             return Response(200, "application/x-ndjson",
-                             StreamedBody{.source = std::make_shared<Pieces>(text_of(50'000), 20)});
-           },
-       .response_types = {}},
-      {.pattern = "/events",
-       .handler =
-           [](const Request&) {
-             return Response(200, "text/event-stream",
-                             StreamedBody{.source = std::make_shared<Pieces>(text_of(5000), 2)});
-           },
-       .response_types = {}},
-      {.pattern = "/coded",
-       .handler =
-           [](const Request&) {
-             return Response(200, "application/json", fitgauge::gzip(text_of(5000)))
-                 .with("Content-Encoding", "gzip");
-           },
-       .response_types = {}},
-      {.pattern = "/kept", .handler = give(prepared), .response_types = {}},
-      {.pattern = "/kept-long", .handler = give(long_one), .response_types = {}},
-      {.pattern = "/kept-short", .handler = give(short_one), .response_types = {}},
-      {.pattern = "/page", .handler = give(page), .response_types = {}}};
+      answering("/stream",
+                [](const Request&) {
+                  return Response(
+                      200, "application/x-ndjson",
+                      StreamedBody{.source = std::make_shared<Pieces>(text_of(50'000), 20)});
+                }),
+      answering("/events",
+                [](const Request&) {
+                  return Response(
+                      200, "text/event-stream",
+                      StreamedBody{.source = std::make_shared<Pieces>(text_of(5000), 2)});
+                }),
+      answering("/coded",
+                [](const Request&) {
+                  return Response(200, "application/json", fitgauge::gzip(text_of(5000)))
+                      .with("Content-Encoding", "gzip");
+                }),
+      answering("/kept", give(prepared)),
+      answering("/kept-long", give(long_one)),
+      answering("/kept-short", give(short_one)),
+      answering("/page", give(page))};
 }
 
 constexpr std::string_view kGzip = "Accept-Encoding: gzip, deflate, br\r\n";
@@ -265,18 +261,16 @@ TEST_CASE("the body of a packed answer that nobody takes counts as unsent") {
   ServerOptions options;
   options.unsent_budget = 50'000'000;  // two bodies
   options.unsent_time = std::chrono::milliseconds(0);
-  TestServer server({{.pattern = "/noise",
-                      .handler =
-                          [](const Request&) {
-                            std::string text(20'000'000, '\0');
-                            std::uint32_t state = 1;
-                            for (char& c : text) {
-                              state = state * 1664525 + 1013904223;
-                              c = static_cast<char>(' ' + (state >> 24) % 95);
-                            }
-                            return Response(200, "application/json", std::move(text));
-                          },
-                      .response_types = {}}},
+  TestServer server({answering("/noise",
+                               [](const Request&) {
+                                 std::string text(20'000'000, '\0');
+                                 std::uint32_t state = 1;
+                                 for (char& c : text) {
+                                   state = state * 1664525 + 1013904223;
+                                   c = static_cast<char>(' ' + (state >> 24) % 95);
+                                 }
+                                 return Response(200, "application/json", std::move(text));
+                               })},
                     options);
   std::vector<Client> stuck;
   for (int i = 0; i < 6; ++i) {

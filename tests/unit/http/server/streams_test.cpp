@@ -238,12 +238,12 @@ TEST_CASE(
     CAPTURE(is_endless);
     allowed = true;
     const auto stream = std::make_shared<Events>();
-    TestServer server({{.pattern = "/events",
-                        .handler = [&](const Request&) -> Result<Response> {
-                          return Response(200, "text/event-stream",
-                                          StreamedBody{.source = stream, .is_endless = is_endless});
-                        },
-                        .response_types = {}}},
+    TestServer server({answering("/events",
+                                 [&](const Request&) -> Result<Response> {
+                                   return Response(
+                                       200, "text/event-stream",
+                                       StreamedBody{.source = stream, .is_endless = is_endless});
+                                 })},
                       {}, hooks);
     Client client = server.connect();
     client.send(get("/events"));

@@ -22,6 +22,11 @@ class TestServer {
   std::unique_ptr<Server> server_;
 };
 
+/// A GET route whose answers may be of any type.
+inline Route answering(std::string pattern, Handler handler) {
+  return {.pattern = std::move(pattern), .handler = std::move(handler), .response_types = {}};
+}
+
 /// A route that answers its body, or `fixed` when it has none.
 Route echo(Method method, std::string pattern, BodyRules body = {});
 

@@ -66,16 +66,13 @@ TlsAnswer ask(std::uint16_t port, std::string_view request, const TlsFiles* iden
 }
 
 std::vector<Route> tls_routes() {
-  return {{.pattern = "/who",
-           .handler = [](const Request& request) -> Result<Response> {
-             return Response(200, "text/plain", "I am " + request.own_origin());
-           },
-           .response_types = {}},
-          {.pattern = "/large",
-           .handler = [](const Request&) -> Result<Response> {
-             return Response(200, "text/plain", std::string(1'000'000, 'x'));
-           },
-           .response_types = {}}};
+  return {answering("/who",
+                    [](const Request& request) -> Result<Response> {
+                      return Response(200, "text/plain", "I am " + request.own_origin());
+                    }),
+          answering("/large", [](const Request&) -> Result<Response> {
+            return Response(200, "text/plain", std::string(1'000'000, 'x'));
+          })};
 }
 
 ServerOptions with(TlsOptions tls) {

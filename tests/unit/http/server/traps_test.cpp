@@ -195,11 +195,9 @@ TEST_CASE("empty lines before a request are skipped") {
 TEST_CASE("a request in absolute-form is served, its authority replaces the Host field") {
   std::string origin;
   std::vector<Route> table = trap_routes();
-  table.push_back({.pattern = "/origin",
-                   .handler = [&](const Request& request) -> Result<Response> {
-                     return Response(200, "text/plain", request.own_origin());
-                   },
-                   .response_types = {}});
+  table.push_back(answering("/origin", [&](const Request& request) -> Result<Response> {
+    return Response(200, "text/plain", request.own_origin());
+  }));
   TestServer server(std::move(table));
   CHECK(server.ask("GET http://Gauge:8286/origin?x HTTP/1.1\r\nHost: other\r\n\r\n").body ==
         "http://gauge:8286");
