@@ -9,6 +9,7 @@
 #include "db/store/measurement_statistics.hpp"
 #include "fixture.hpp"
 #include "measurement_sample.hpp"
+#include "support/deep.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::store;
@@ -188,7 +189,7 @@ struct Shop : Fixture {
   }
 
   /// @param part one of so many of all combinations, drawn
-  void check(const std::string& state, unsigned part = 5) {
+  void check(const std::string& state, int part = rounds(20, 5)) {
     CAPTURE(state);
     std::vector<bool> current(sample.rows.size());
     for (std::size_t i = 0; i < current.size(); ++i) {
@@ -196,7 +197,7 @@ struct Shop : Fixture {
     }
     for (std::size_t number = 0; number < kFilters; ++number) {
       for (const TextColumn& by : kTextColumns) {
-        if (random() % part != 0) continue;
+        if (random() % static_cast<unsigned>(part) != 0) continue;
         const MeasurementFilter asked = filter(number, by.field);
         std::vector<bool> then = current;
         for (std::size_t i = 0; asked.as_of_id && i < then.size(); ++i) {
@@ -242,6 +243,7 @@ TEST_CASE("a summary is what a pass over the rows gives, whatever the index hold
   const unsigned seed = std::random_device{}();
   CAPTURE(seed);
   Shop shop(seed);
+  const bool is_deep = rounds(0, 1) == 1;  // a verification derives the whole index
   shop.index(1'000'000);
   REQUIRE(shop.count("measurement_nodes WHERE level = 1 AND paired = 1") == 1);
   REQUIRE(shop.count("measurement_columns") == 35);
@@ -249,7 +251,7 @@ TEST_CASE("a summary is what a pass over the rows gives, whatever the index hold
   REQUIRE(shop.count("measurement_pairs WHERE field = 1 OR (by_field = 1 AND field > 0)") == 0);
   REQUIRE(shop.count("measurement_pairs WHERE field = 0 AND by_field = 0") == 1);
   REQUIRE(shop.count("measurement_pairs WHERE by_field = 0") > 4);
-  shop.check("indexed", 1);
+  shop.check("indexed", rounds(4, 1));
 
   shop.correct(20);
   shop.check("some of it stale, or mended meanwhile");
@@ -262,7 +264,7 @@ TEST_CASE("a summary is what a pass over the rows gives, whatever the index hold
   shop.execute("DELETE FROM measurement_columns");
   shop.execute("DELETE FROM measurement_pairs");
   shop.execute("UPDATE measurement_nodes SET paired = 0");
-  CHECK(shop.database->verify()->findings.empty());
+  if (is_deep) CHECK(shop.database->verify()->findings.empty());
   shop.check("without columns and pairs");
   shop.index(20);
   shop.check("with columns of some blocks");
@@ -271,7 +273,7 @@ TEST_CASE("a summary is what a pass over the rows gives, whatever the index hold
   REQUIRE(shop.count("measurement_columns") == 35);
   REQUIRE(shop.count("measurement_pairs WHERE field = 4 AND by_field = 3") == 1);
   shop.check("with all of them again");
-  CHECK(shop.database->verify()->findings.empty());
+  if (is_deep) CHECK(shop.database->verify()->findings.empty());
 
   // As releases left it that summed up the values before their correction to 20 °C.
   shop.execute(
@@ -290,6 +292,6 @@ TEST_CASE("a summary is what a pass over the rows gives, whatever the index hold
   CHECK(shop.database->verify()->findings.size() == 1);
   shop.check("without some of the tuples");
   shop.execute("DELETE FROM measurement_pairs WHERE by_field = 0");
-  CHECK(shop.database->verify()->findings.size() == 1);
+  if (is_deep) CHECK(shop.database->verify()->findings.size() == 1);
   shop.check("without tuples");
 }
