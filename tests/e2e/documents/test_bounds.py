@@ -86,6 +86,8 @@ BODIES["replayConnection"] = [{"from": "2026-11-20T08:00:00Z"}]
 BODIES["putUncertainty"] = BODIES["combineUncertainties"]
 # Members that are held together: the first is at most the second.
 TOGETHER = {"min_interference_um": "max_interference_um"}
+# Members whose greatest value takes long to compute: all faults of a body are told at once, so it has another.
+COSTLY = {"trials"}
 # Codes of members that are good and do not go together with the others.
 NOT_OF_A_BOUND = {"field.conflict", "field.missing"}
 
@@ -195,6 +197,8 @@ class Bounds(DaemonTest):
 
     def hold(self, name, method, path, body, at, schema):
         pointer = "".join(f"/{token}" for token in at)
+        if at and at[-1] in COSTLY:
+            body = {**body, "no such member": 1}
         for bound, good, bad in self.edges(schema, at, body):
             with self.subTest(name, pointer=pointer, bound=bound):
                 for value in good:
