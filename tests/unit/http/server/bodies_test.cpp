@@ -194,8 +194,8 @@ TEST_CASE("gzip bodies are read, the limit counts what comes out") {
   CHECK(ask(gzip(std::string(kLimit, 'z'))).body == std::string(kLimit, 'z'));
   CHECK(ask(gzip(std::string(kLimit + 1, 'z'))).status == 413);
   std::string zeros;
-  zeros.resize(50'000'000);
-  CHECK(ask(gzip(zeros)).status == 413);  // a bomb of 48 kB
+  zeros.resize(20'000'000);
+  CHECK(ask(gzip(zeros)).status == 413);  // a bomb of 87 kB
   const std::string whole = gzip(text);
   CHECK(ask(whole.substr(0, whole.size() - 1)).status == 400);
   CHECK(ask("not gzip").status == 400);
