@@ -197,16 +197,4 @@ TEST_CASE("405 turns the table until the hole stands where it belongs") {
   CHECK(up.run(405, with(block, {{247, 0.0}})) == 1066);
 }
 
-TEST_CASE("alignment refuses mirror and scaling") {
-  ProbingBench bench({edge_at(0)});
-  machine::Frames frames = bench.machine.state().frames;
-  frames.set_mirror({false, true, false});
-  REQUIRE(bench.machine.set_frames(frames).has_value());
-  CHECK(bench.run(400, kEdge) == 1008);
-  frames.set_mirror({});
-  frames.set_scaling({{2, 2, 2}, {}});
-  REQUIRE(bench.machine.set_frames(frames).has_value());
-  CHECK(bench.run(400, kEdge) == 1007);
-}
-
 }  // namespace fitgauge::probing

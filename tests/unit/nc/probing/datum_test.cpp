@@ -74,14 +74,6 @@ TEST_CASE("417: errors of the transfer and of active transformations") {
   machine::Preset locked{.number = 6, .comment = {}, .frame = {}, .locked = true};
   REQUIRE(bench.machine.write_preset(locked).has_value());
   CHECK(bench.run(417, with(block(), {{305, 6.0}})) == 1085);
-  machine::Frames frames = bench.machine.state().frames;
-  frames.set_mirror({true, false, false});
-  REQUIRE(bench.machine.set_frames(frames).has_value());
-  CHECK(bench.run(417, block()) == 1008);
-  frames.set_mirror({});
-  frames.set_scaling({{0.5, 0.5, 0.5}, {}});
-  REQUIRE(bench.machine.set_frames(frames).has_value());
-  CHECK(bench.run(417, block()) == 1007);
 }
 
 TEST_CASE("247 resets the transformations and takes a row by number or name") {

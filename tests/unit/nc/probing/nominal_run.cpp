@@ -84,7 +84,11 @@ Outcome run_in(const NominalCase& c, const Frames& frames, const Vec3& displaced
 
   Outcome outcome{.error = bench.run(c.cycle, c.block), .values = {}, .stored = {}};
   CAPTURE(bench.fault.text);
-  if (outcome.error != 0) return outcome;
+  if (outcome.error != 0) {
+    CHECK(bench.host.touches.empty());
+    CHECK(bench.host.files.empty());
+    return outcome;
+  }
   for (const auto& result : c.results) {
     REQUIRE(bench.host.q.contains(result.first));
     outcome.values.push_back(bench.host.q[result.first]);
