@@ -26,8 +26,7 @@ Plane edge_at(double angle_deg) {
   const Vec3 normal{sine, -cosine, 0};
   return {.point = normal * -30, .normal = normal};
 }
-const Values kEdge{{263, 10.0}, {264, 30.0}, {265, 60.0}, {266, 30.0},
-                   {272, 2.0},  {267, 1.0},  {261, 0.0},  {260, 100.0}};
+const Values kEdge = values("263=10 264=30 265=60 266=30 272=2 267=1 261=0 260=100");
 
 std::vector<machine::Feature> two(double angle_deg, bool holes) {
   const auto [sine, cosine] = machine::sine_cosine(angle_deg);
@@ -43,8 +42,7 @@ std::vector<machine::Feature> two(double angle_deg, bool holes) {
   return features;
 }
 const Values kHoles{{268, 20.0}, {269, 0.0}, {270, 120.0}, {271, 0.0}, {261, -5.0}, {260, 30.0}};
-const Values kStuds{{268, 20.0}, {269, 0.0},  {313, 10.0}, {261, 5.0},  {270, 120.0},
-                    {271, 0.0},  {314, 10.0}, {315, 5.0},  {260, 30.0}, {320, 5.0}};
+const Values kStuds = values("268=20 269=0 313=10 261=5 270=120 271=0 314=10 315=5 260=30 320=5");
 
 double rotation(const ProbingBench& bench) {
   return bench.machine.state().frames.preset().basic_rotation_deg.z;
@@ -74,8 +72,7 @@ TEST_CASE("400 makes the angle of an edge the basic rotation") {
 }
 
 TEST_CASE("400 along the secondary axis, whether Q307 says 0 or 90") {
-  const Values block{{263, -30.0}, {264, 10.0}, {265, -30.0}, {266, 60.0}, {272, 1.0},
-                     {267, -1.0},  {261, 0.0},  {320, 5.0},   {260, 100.0}};
+  const Values block = values("263=-30 264=10 265=-30 266=60 272=1 267=-1 261=0 320=5 260=100");
   for (const double reference : {0.0, 90.0}) {
     for (const double angle : {91.5, 88.0}) {
       ProbingBench bench({edge_at(angle)});
@@ -147,8 +144,7 @@ TEST_CASE("403 writes the zero of the axis to the row of Q305, as Q303 says") {
 TEST_CASE("403 levels a sloping face with A or B") {
   const double slope = std::tan(machine::radians(2));
   ProbingBench a(with_table({Plane{.point = {0, 0, 0}, .normal = {0, -slope, 1}}}, Axis::A));
-  const Values along_y{{263, 0.0}, {264, 0.0},  {265, 0.0}, {266, 40.0},
-                       {272, 3.0}, {267, -1.0}, {261, 0.0}, {260, 50.0}};
+  const Values along_y = values("263=0 264=0 265=0 266=40 272=3 267=-1 261=0 260=50");
   CHECK(a.run(403, along_y) == 0);
   CHECK(near(a.host.q[150], 2));
   CHECK(a.run(403, along_y) == 0);

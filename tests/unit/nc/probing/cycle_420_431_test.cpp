@@ -17,9 +17,8 @@ std::vector<machine::Feature> edge_features(double angle_deg) {
 }  // namespace
 
 TEST_CASE("420 measures the angle of an edge to the main axis") {
-  const Values along_main{{263, 10.0}, {264, 30.0}, {265, 60.0}, {266, 30.0},
-                          {272, 2.0},  {267, 1.0},  {261, 0.0},  {260, 100.0},
-                          {301, 1.0},  {281, 1.0},  {320, 5.0}};
+  const Values along_main =
+      values("263=10 264=30 265=60 266=30 272=2 267=1 261=0 260=100 301=1 281=1 320=5");
   for (const double angle : {0.0, 1.5, -2.25}) {
     ProbingBench bench(edge_features(angle));
     CHECK(bench.run(420, along_main) == 0);
@@ -45,14 +44,8 @@ TEST_CASE("420 measures the angle of an edge to the main axis") {
 TEST_CASE("420 in the probe axis measures the slope along the axis in which the points differ") {
   const auto slope = [](const machine::Vec3& normal, double x2, double y2) {
     ProbingBench bench({Plane{.point = {0, 0, 0}, .normal = normal}});
-    CHECK(bench.run(420, {{263, 0.0},
-                          {264, 0.0},
-                          {265, x2},
-                          {266, y2},
-                          {272, 3.0},
-                          {267, -1.0},
-                          {261, 0.0},
-                          {260, 50.0}}) == 0);
+    CHECK(bench.run(420, with(values("263=0 264=0 272=3 267=-1 261=0 260=50"),
+                              {{265, x2}, {266, y2}})) == 0);
     return bench.host.q[150];
   };
   const double up = std::tan(machine::radians(2));
@@ -62,8 +55,7 @@ TEST_CASE("420 in the probe axis measures the slope along the axis in which the 
 
 TEST_CASE("420: errors") {
   ProbingBench bench(edge_features(0));
-  const Values block{{263, 10.0}, {264, 30.0}, {265, 10.0}, {266, 30.0},
-                     {272, 2.0},  {267, 1.0},  {261, 0.0},  {260, 100.0}};
+  const Values block = values("263=10 264=30 265=10 266=30 272=2 267=1 261=0 260=100");
   CHECK(bench.run(420, block) == 1081);
   CHECK(bench.run(420, with(block, {{267, 0.0}})) == 1042);
   CHECK(bench.run(420, with(block, {{265, 60.0}, {266, 300.0}, {264, 300.0}})) == -1);
@@ -78,16 +70,12 @@ TEST_CASE("431 gives the angles that tilt the working plane into the measured on
     ProbingBench bench({Plane{.point = {0, 0, 0}, .normal = normal}});
     const machine::Vec3 second = main * 50;
     const machine::Vec3 third = secondary * 40 + main * 10;
-    CHECK(bench.run(431, {{263, 0.0},
-                          {264, 0.0},
-                          {294, 0.0},
-                          {265, second.x},
-                          {266, second.y},
-                          {295, second.z},
-                          {296, third.x},
-                          {297, third.y},
-                          {298, third.z},
-                          {260, 60.0}}) == 0);
+    CHECK(bench.run(431, with(values("263=0 264=0 294=0 260=60"), {{265, second.x},
+                                                                   {266, second.y},
+                                                                   {295, second.z},
+                                                                   {296, third.x},
+                                                                   {297, third.y},
+                                                                   {298, third.z}})) == 0);
     CHECK(same(bench.host.q[173], 0));
     CHECK(std::abs(bench.host.q[174] - second.z) < 1e-6);
     CHECK(std::abs(bench.host.q[175] - third.z) < 1e-6);
@@ -103,16 +91,9 @@ TEST_CASE("431 gives the angles that tilt the working plane into the measured on
 
 TEST_CASE("431: points on a line make no plane") {
   ProbingBench bench({Plane{}});
-  CHECK(bench.run(431, {{263, 0.0},
-                        {264, 0.0},
-                        {294, 0.0},
-                        {265, 10.0},
-                        {266, 10.0},
-                        {295, 0.0},
-                        {296, 30.0},
-                        {297, 30.0},
-                        {298, 0.0},
-                        {260, 60.0}}) == 1081);
+  CHECK(
+      bench.run(431, values("263=0 264=0 294=0 265=10 266=10 295=0 296=30 297=30 298=0 260=60")) ==
+      1081);
 }
 
 }  // namespace fitgauge::probing

@@ -13,16 +13,14 @@ const Block kPlate{.min = {0, 0, -40}, .max = {200, 200, 0}};
 
 /// A hole or stud of 25 in the middle of the plate, limits 25.021 and 25.
 Values hole_block() {
-  return {{273, 100.0}, {274, 100.0}, {262, 25.0},   {247, 90.0},
-          {261, -5.0},  {260, 20.0},  {275, 25.021}, {276, 25.0}};
+  return values("273=100 274=100 262=25 247=90 261=-5 260=20 275=25.021 276=25");
 }
 ProbingBench hole_of(double diameter, std::array<double, 2> centre = {100, 100}) {
   return ProbingBench(
       {kPlate, Bore{.centre = centre, .top = 0, .depth = 30, .diameter = diameter}});
 }
 Values stud_block() {
-  return {{273, 100.0}, {274, 100.0}, {262, 25.0}, {247, 90.0},
-          {261, 5.0},   {260, 30.0},  {277, 25.0}, {278, 24.979}};
+  return values("273=100 274=100 262=25 247=90 261=5 260=30 277=25 278=24.979");
 }
 ProbingBench stud_of(double diameter) {
   return ProbingBench(
@@ -80,8 +78,7 @@ TEST_CASE("an error of 421, 422, 412 and 413 names the bore or boss that is ther
 
 TEST_CASE("421 touches a hole too small for the clearance from its centre") {
   ProbingBench bench({kPlate, Bore{.centre = {100, 100}, .top = 0, .depth = 20, .diameter = 6}});
-  CHECK(bench.run(421, with(hole_block(), {{262, 6.0}, {275, 6.01}, {276, 5.99}, {301, 1.0}})) ==
-        0);
+  CHECK(bench.run(421, with(hole_block(), values("262=6 275=6.01 276=5.99 301=1"))) == 0);
   CHECK(same(bench.host.q[153], 6.0));
 }
 

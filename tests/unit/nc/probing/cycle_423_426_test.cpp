@@ -29,8 +29,7 @@ Values rectangle_block() {
 }
 
 Values slot_block() {
-  return {{328, 100.0}, {329, 80.0},  {272, 2.0},   {261, -5.0}, {260, 20.0},
-          {311, 30.0},  {288, 30.03}, {289, 29.97}, {309, 1.0}};
+  return values("328=100 329=80 272=2 261=-5 260=20 311=30 288=30.03 289=29.97 309=1");
 }
 Values ridge_block() {
   return {{263, 100.0}, {264, 95.0}, {265, 100.0}, {266, 65.0},  {272, 2.0}, {261, -5.0},
@@ -77,9 +76,7 @@ TEST_CASE("423: the centre against its tolerance, and contradictory limits") {
 
 TEST_CASE("423 touches a small pocket from its centre") {
   ProbingBench bench(pocket(7, 6));
-  CHECK(bench.run(423,
-                  with(rectangle_block(),
-                       {{282, 7.0}, {283, 6.0}, {284, 0.0}, {285, 0.0}, {286, 0.0}, {287, 0.0}})) ==
+  CHECK(bench.run(423, with(rectangle_block(), values("282=7 283=6 284=0 285=0 286=0 287=0"))) ==
         0);
   CHECK(same(bench.host.q[154], 7));
   CHECK(same(bench.host.q[155], 6));

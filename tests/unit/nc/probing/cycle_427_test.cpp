@@ -7,19 +7,14 @@ namespace {
 
 const machine::Block kRaisedPlate{.min = {0, 0, -40}, .max = {100, 80, 0.013}};
 
-Values top_block() {
-  return {{263, 50.0}, {264, 40.0}, {261, 0.0},  {272, 3.0},
-          {267, -1.0}, {260, 50.0}, {288, 0.02}, {289, -0.02}};
-}
+Values top_block() { return values("263=50 264=40 261=0 272=3 267=-1 260=50 288=0.02 289=-0.02"); }
 Values side_block(double axis, double direction, double coordinate) {
-  return {{263, axis == 1 ? coordinate : 50.0},
-          {264, axis == 2 ? coordinate : 40.0},
-          {261, -10.0},
-          {272, axis},
-          {267, direction},
-          {260, 50.0},
-          {288, coordinate + 0.05},
-          {289, coordinate - 0.05}};
+  return with(values("261=-10 260=50"), {{263, axis == 1 ? coordinate : 50.0},
+                                         {264, axis == 2 ? coordinate : 40.0},
+                                         {272, axis},
+                                         {267, direction},
+                                         {288, coordinate + 0.05},
+                                         {289, coordinate - 0.05}});
 }
 
 }  // namespace

@@ -7,9 +7,7 @@ namespace {
 
 const machine::Block kDatumPlate{.min = {0, 0, -40}, .max = {100, 80, 0.3}};
 
-Values block() {
-  return {{263, 50.0}, {264, 40.0}, {294, 0.0}, {320, 0.0}, {260, 50.0}, {333, 5.0}};
-}
+Values block() { return values("263=50 264=40 294=0 320=0 260=50 333=5"); }
 
 const machine::PresetFrame& row(const ProbingBench& bench, int number) {
   const machine::Preset* found = bench.machine.state().presets.find(number);

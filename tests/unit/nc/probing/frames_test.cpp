@@ -219,8 +219,7 @@ std::vector<Scenario> scenarios() {
   all.push_back(
       on_machine(451, table, 30, over, always(with(axes, {{406, 1.0}})), kinematic_results));
   all.push_back(on_machine(452, table, 30, over, always(axes), kinematic_results));
-  all.push_back(on_machine(453, table, 30, over,
-                           always({{406, 1.0}, {407, 15.0}, {408, 90.0}, {253, 2000.0}}),
+  all.push_back(on_machine(453, table, 30, over, always(values("406=1 407=15 408=90 253=2000")),
                            kinematic_results));
   const FrameBlock check = [](const Frames& f) {
     return Values{{340, 1.0}, {260, height(f, 200)}};

@@ -50,11 +50,9 @@ const std::vector<Feature> kBolts = plate_with({{130, 80}, {100, 110}, {70, 80}}
 const Values kClear{{260, 30.0}, {320, 0.0}};
 const Values kQuiet = with(kClear, {{281, 0.0}});
 const Values kRow = with(kClear, {{305, 9.0}});
-const Values kEdge{{263, 20.0}, {264, 0.0}, {265, 180.0}, {266, 0.0},
-                   {272, 2.0},  {267, 1.0}, {261, -5.0}};
+const Values kEdge = values("263=20 264=0 265=180 266=0 272=2 267=1 261=-5");
 const Values kRound{{262, 25.0}, {247, 90.0}};
-const Values kBoltCircle{{273, 100.0}, {274, 80.0},  {262, 60.0}, {291, 0.0},
-                         {292, 90.0},  {293, 180.0}, {261, -5.0}};
+const Values kBoltCircle = values("273=100 274=80 262=60 291=0 292=90 293=180 261=-5");
 const Values kTwoHoles{{268, 50.0}, {269, 40.0}, {270, 150.0}, {271, 40.0}};
 
 using Results = std::vector<std::pair<int, double>>;
@@ -98,87 +96,44 @@ void add_touches(std::vector<NominalCase>& cases) {
 void add_measuring(std::vector<NominalCase>& cases) {
   cases.push_back({420, {kPlate}, {20, -30, 60}, with(kEdge, kQuiet), {{150, 0}}});
   cases.push_back({421, kHole, kAbove,
-                   with(with(kRound, kQuiet),
-                        {{273, 100.0}, {274, 80.0}, {261, -5.0}, {275, 25.021}, {276, 25.0}}),
+                   with(with(kRound, kQuiet), values("273=100 274=80 261=-5 275=25.021 276=25")),
                    join(kCircle, kGood)});
   cases.push_back({422, kStud, kAbove,
-                   with(with(kRound, kQuiet),
-                        {{273, 100.0}, {274, 80.0}, {261, 5.0}, {277, 25.0}, {278, 24.979}}),
+                   with(with(kRound, kQuiet), values("273=100 274=80 261=5 277=25 278=24.979")),
                    join(kCircle, kGood)});
   for (const int cycle : {423, 424}) {
-    cases.push_back({cycle, cycle == 423 ? kPocket : kRectangle, kAbove,
-                     with(kQuiet, {{273, 100.0},
-                                   {274, 80.0},
-                                   {282, 60.0},
-                                   {283, 40.0},
-                                   {261, -5.0},
-                                   {284, 60.0},
-                                   {285, 60.0},
-                                   {286, 40.0},
-                                   {287, 40.0}}),
-                     join(kSides, kGood)});
+    cases.push_back(
+        {cycle, cycle == 423 ? kPocket : kRectangle, kAbove,
+         with(kQuiet, values("273=100 274=80 282=60 283=40 261=-5 284=60 285=60 286=40 287=40")),
+         join(kSides, kGood)});
   }
   const Results width = join({{156, 40}, {157, 80}, {166, 0}}, kGood);
   cases.push_back({425, kPocket, kAbove,
-                   with(kQuiet, {{328, 100.0},
-                                 {329, 80.0},
-                                 {310, 0.0},
-                                 {272, 2.0},
-                                 {261, -5.0},
-                                 {311, 40.0},
-                                 {288, 40.0},
-                                 {289, 40.0}}),
+                   with(kQuiet, values("328=100 329=80 310=0 272=2 261=-5 311=40 288=40 289=40")),
                    width});
-  cases.push_back({426, kRectangle, kAbove,
-                   with(kQuiet, {{263, 100.0},
-                                 {264, 100.0},
-                                 {265, 100.0},
-                                 {266, 60.0},
-                                 {272, 2.0},
-                                 {261, -5.0},
-                                 {311, 40.0},
-                                 {288, 40.0},
-                                 {289, 40.0}}),
-                   width});
+  cases.push_back(
+      {426, kRectangle, kAbove,
+       with(kQuiet, values("263=100 264=100 265=100 266=60 272=2 261=-5 311=40 288=40 289=40")),
+       width});
   cases.push_back({427,
                    {kFace},
                    kAbove,
-                   with(kQuiet, {{263, 20.0},
-                                 {264, 20.0},
-                                 {261, 0.0},
-                                 {272, 3.0},
-                                 {267, -1.0},
-                                 {288, 0.001},
-                                 {289, 0.0}}),
+                   with(kQuiet, values("263=20 264=20 261=0 272=3 267=-1 288=0.001 289=0")),
                    join({{160, 0}, {168, 0}}, kGood)});
-  cases.push_back({430, kBolts, kAbove,
-                   with(kBoltCircle, {{260, 30.0}, {281, 0.0}, {288, 60.0}, {289, 60.0}}),
+  cases.push_back({430, kBolts, kAbove, with(kBoltCircle, values("260=30 281=0 288=60 289=60")),
                    join(join(kCentre, {{153, 60}, {163, 0}}), kGood)});
   cases.push_back(
       {431,
        {kFace},
        kAbove,
-       with(kQuiet, {{263, 20.0},
-                     {264, 20.0},
-                     {294, 0.0},
-                     {265, 150.0},
-                     {266, 20.0},
-                     {295, 0.0},
-                     {296, 20.0},
-                     {297, 120.0},
-                     {298, 0.0}}),
+       with(kQuiet, values("263=20 264=20 294=0 265=150 266=20 295=0 296=20 297=120 298=0")),
        {{158, 0}, {159, 0}, {170, 0}, {171, 0}, {172, 0}, {173, 0}, {174, 0}, {175, 0}}});
   cases.push_back(
       {444,
        {kFace},
        kAbove,
-       with(kClear, {{263, 20.0},
-                     {264, 30.0},
-                     {294, 0.0},
-                     {581, 0.0},
-                     {582, 0.0},
-                     {583, 1.0},
-                     {400, std::string("0.1-0.1")}}),
+       with(kClear,
+            with(values("263=20 264=30 294=0 581=0 582=0 583=1"), {{400, std::string("0.1-0.1")}})),
        {{151, 20}, {152, 30}, {153, 0}, {161, 0}, {162, 0}, {163, 0}, {164, 0}, {183, 0}}});
 }
 
@@ -196,37 +151,23 @@ void add_datums(std::vector<NominalCase>& cases) {
   cases.push_back({414,
                    {Block{{100, 80, -40}, {200, 160, 0}}},
                    {60, 60, 60},
-                   with(kRow, {{263, 110.0},
-                               {264, 80.0},
-                               {326, 40.0},
-                               {296, 100.0},
-                               {297, 90.0},
-                               {327, 30.0},
-                               {261, -5.0}}),
+                   with(kRow, values("263=110 264=80 326=40 296=100 297=90 327=30 261=-5")),
                    {{151, 100}, {152, 80}}});
-  cases.push_back(
-      {415,
-       kPocket,
-       kAbove,
-       with(kRow, {{263, 70.0}, {264, 60.0}, {326, 30.0}, {327, 20.0}, {308, 1.0}, {261, -5.0}}),
-       {{151, 70}, {152, 60}}});
+  cases.push_back({415,
+                   kPocket,
+                   kAbove,
+                   with(kRow, values("263=70 264=60 326=30 327=20 308=1 261=-5")),
+                   {{151, 70}, {152, 60}}});
   cases.push_back(
       {416, kBolts, kAbove, with(kBoltCircle, kRow), {{151, 100}, {152, 80}, {153, 60}}});
+  cases.push_back({417, {kPlate}, kAbove, with(kRow, values("263=20 264=20 294=0")), {{160, 0}}});
   cases.push_back(
-      {417, {kPlate}, kAbove, with(kRow, {{263, 20.0}, {264, 20.0}, {294, 0.0}}), {{160, 0}}});
-  cases.push_back({418,
-                   plate_with({{60, 50}, {140, 50}, {140, 110}, {60, 110}}, 10),
-                   kAbove,
-                   with(Values{{260, 30.0}, {305, 9.0}}, {{268, 60.0},
-                                                          {269, 50.0},
-                                                          {270, 140.0},
-                                                          {271, 50.0},
-                                                          {316, 140.0},
-                                                          {317, 110.0},
-                                                          {318, 60.0},
-                                                          {319, 110.0},
-                                                          {261, -5.0}}),
-                   {{151, 100}, {152, 80}}});
+      {418,
+       plate_with({{60, 50}, {140, 50}, {140, 110}, {60, 110}}, 10),
+       kAbove,
+       with(Values{{260, 30.0}, {305, 9.0}},
+            values("268=60 269=50 270=140 271=50 316=140 317=110 318=60 319=110 261=-5")),
+       {{151, 100}, {152, 80}}});
   cases.push_back({419,
                    {kPlate},
                    {-40, 40, 60},
@@ -244,8 +185,7 @@ void add_alignment(std::vector<NominalCase>& cases) {
   cases.push_back({402,
                    plate_with_studs({{50, 40}, {150, 40}}, 10),
                    kAbove,
-                   with(with(kTwoHoles, kClear),
-                        {{313, 10.0}, {314, 10.0}, {261, 5.0}, {315, 5.0}, {301, 1.0}}),
+                   with(with(kTwoHoles, kClear), values("313=10 314=10 261=5 315=5 301=1")),
                    {}});
   cases.push_back({403, {kPlate}, {20, -30, 60}, with(kEdge, kClear), {{150, 0}}});
   cases.push_back({405,

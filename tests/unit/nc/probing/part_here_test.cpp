@@ -63,8 +63,7 @@ TEST_CASE("an error names the part that is there and the cycle for its side") {
   // Another size is another part.
   CHECK(part(kBlock, 408, with(centre, {{311, 8.0}})).find("boss") == std::string::npos);
 
-  const Values object{{1100, 100.0}, {1101, 80.0}, {1102, -5.0},
-                      {260, 40.0},   {1113, 40.0}, {1114, 90.0}};
+  const Values object = values("1100=100 1101=80 1102=-5 260=40 1113=40 1114=90");
   CHECK(part(kBlock, 1404, object) == "boss of 60 x 40 mm here: Q1115 = 1");
   CHECK(part(kRoom, 1434, with(object, {{1115, 1.0}})) == "pocket of 60 x 40 mm here: Q1115 = 0");
 
@@ -73,8 +72,7 @@ TEST_CASE("an error names the part that is there and the cycle for its side") {
   CHECK(part(kBores, 1401, with(circle, {{1102, -5.0}, {1115, 1.0}})) ==
         "bore of 12 mm here: Q1115 = 0");
   const std::vector<Feature> both{kTable, bore(50, 12), boss(150, 12)};
-  const Values mixed =
-      with(circle, {{1102, -5.0}, {1103, 150.0}, {1104, 80.0}, {1105, 5.0}, {1117, 12.0}});
+  const Values mixed = with(circle, values("1102=-5 1103=150 1104=80 1105=5 1117=12"));
   CHECK(part(both, 1411, mixed) == "boss of 12 mm here: Q1115 = 2");
   CHECK(part(both, 1411, with(mixed, {{1115, 1.0}})) == "bore of 12 mm here: Q1115 = 2");
   CHECK(part(both, 1411, with(mixed, {{1115, 2.0}})) == "no error");

@@ -42,8 +42,7 @@ void check_near(const Vec3& a, const Vec3& b) {
 }  // namespace
 
 TEST_CASE("408 and 409 set the datum in the middle of a slot and a ridge") {
-  const Values block = {{321, 100.0}, {322, 80.0}, {311, 30.0}, {261, -5.0},
-                        {320, 0.0},   {260, 40.0}, {405, 1.0},  {305, 9.0}};
+  const Values block = values("321=100 322=80 311=30 261=-5 320=0 260=40 405=1 305=9");
   for (const double via_clearance : {0.0, 1.0}) {
     ProbingBench slot(pocket(85.1, 20, 115.3, 140));
     CHECK(slot.run(408, with(block, {{272, 1.0}, {301, via_clearance}})) == 0);
@@ -113,14 +112,7 @@ TEST_CASE("414 and 415 find each corner of a part that stands turned in its pres
 
 TEST_CASE("414 needs points that say where the corner lies") {
   ProbingBench bench({kLargePlate});
-  CHECK(bench.run(414, {{263, 0.0},
-                        {264, 10.0},
-                        {326, 40.0},
-                        {296, 0.0},
-                        {297, 30.0},
-                        {327, 30.0},
-                        {261, -5.0},
-                        {260, 40.0}}) == 1081);
+  CHECK(bench.run(414, values("263=0 264=10 326=40 296=0 297=30 327=30 261=-5 260=40")) == 1081);
 }
 
 TEST_CASE("418 sets the datum where the lines between four holes meet") {
@@ -130,17 +122,11 @@ TEST_CASE("418 sets the datum where the lines between four holes meet") {
     features.push_back(Bore{.centre = centre, .top = 0, .depth = 20, .diameter = 10});
   }
   ProbingBench bench(features);
-  CHECK(bench.run(418, with({{268, 60.0},
-                             {269, 50.0},
-                             {270, 140.0},
-                             {271, 50.0},
-                             {316, 140.0},
-                             {317, 110.0},
-                             {318, 60.0},
-                             {319, 110.0},
-                             {261, -5.0},
-                             {260, 40.0}},
-                            with(kDatum, kProbeAxis))) == 0);
+  CHECK(
+      bench.run(
+          418,
+          with(values("268=60 269=50 270=140 271=50 316=140 317=110 318=60 319=110 261=-5 260=40"),
+               with(kDatum, kProbeAxis))) == 0);
   // x = 60 + 80.2 t, y = 50 + 60 t meets x = 140 - 80 s, y = 50.1 + 59.9 s.
   const double t = (80 * 0.1 + 80 * 59.9) / (80.2 * 59.9 + 80 * 60);
   check_near(row9(bench), {60 + 80.2 * t - 1, 50 + 60 * t - 2, -3});
@@ -149,8 +135,7 @@ TEST_CASE("418 sets the datum where the lines between four holes meet") {
 
 TEST_CASE("419 sets the datum in any one axis") {
   ProbingBench bench({kLargePlate});
-  const Values block{{263, 0.0}, {264, 80.0}, {261, -5.0}, {260, 40.0},
-                     {272, 1.0}, {267, 1.0},  {333, 7.0},  {305, 9.0}};
+  const Values block = values("263=0 264=80 261=-5 260=40 272=1 267=1 333=7 305=9");
   CHECK(bench.run(419, block) == 0);
   CHECK(same(bench.host.q[160], 0));
   check_near(row9(bench), {-7, 0, 0});
@@ -166,14 +151,8 @@ TEST_CASE("presets in a rotated preset move along its own axes") {
   REQUIRE(bench.machine.write_preset(turned).has_value());
   REQUIRE(bench.machine.activate_preset(2).has_value());
   const Vec3 centre = bench.machine.state().frames.from_machine({100, 80, 0});
-  CHECK(bench.run(412, with({{321, centre.x + 0.2},
-                             {322, centre.y},
-                             {262, 25.0},
-                             {247, 90.0},
-                             {261, -5.0},
-                             {260, 40.0},
-                             {305, 2.0},
-                             {303, 1.0}},
+  CHECK(bench.run(412, with(with(values("262=25 247=90 261=-5 260=40 305=2 303=1"),
+                                 {{321, centre.x + 0.2}, {322, centre.y}}),
                             {{331, 10.0}, {332, -5.0}})) == 0);
   REQUIRE(bench.machine.activate_preset(2).has_value());
   check_near(bench.machine.state().frames.from_machine({100, 80, 0}), {10, -5, 0});

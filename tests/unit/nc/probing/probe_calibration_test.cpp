@@ -48,10 +48,7 @@ void stand_at(ProbingBench& bench, const Vec3& tip) {
 /// The bore of the setup, whose values only a calibrated probe finds.
 void measure_bore(ProbingBench& bench) {
   stand_at(bench, {100, 80, 20});
-  REQUIRE(
-      bench.run(421,
-                {{273, 100.0}, {274, 80.0}, {262, 25.0}, {247, 90.0}, {261, -10.0}, {260, 20.0}}) ==
-      0);
+  REQUIRE(bench.run(421, values("273=100 274=80 262=25 247=90 261=-10 260=20")) == 0);
 }
 void check_bore(ProbingBench& bench) {
   measure_bore(bench);
@@ -115,9 +112,7 @@ TEST_CASE("460 on a sphere finds radius, offset and length") {
     CHECK(std::abs(bench.machine.state().probe_system()->length - (kLength - kPretravel)) < 3e-6);
     check_bore(bench);
     stand_at(bench, {20, 20, 10});
-    CHECK(bench.run(427,
-                    {{263, 20.0}, {264, 20.0}, {261, 0.0}, {272, 3.0}, {267, -1.0}, {260, 20.0}}) ==
-          0);
+    CHECK(bench.run(427, values("263=20 264=20 261=0 272=3 267=-1 260=20")) == 0);
     CHECK(std::abs(bench.host.q[160]) < 3e-6);
   }
 }
@@ -131,9 +126,7 @@ TEST_CASE("461 on the ring: the effective length, and Q160 of a face after it") 
   CHECK(bench.machine.state().probe_system()->radius == 2);
   CHECK(norm(bench.machine.state().nose.linear - Vec3{before.x, before.y, before.z + 120}) < 1e-9);
   stand_at(bench, {20, 20, 10});
-  CHECK(bench.run(427,
-                  {{263, 20.0}, {264, 20.0}, {261, 0.0}, {272, 3.0}, {267, -1.0}, {260, 20.0}}) ==
-        0);
+  CHECK(bench.run(427, values("263=20 264=20 261=0 272=3 267=-1 260=20")) == 0);
   CHECK(std::abs(bench.host.q[160]) < 2e-6);
 }
 

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <sstream>
+
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/probing/cycles.hpp"
 #include "recording_host.hpp"
@@ -17,6 +19,21 @@ constexpr int word(ParameterId id) { return static_cast<int>(id); }
 inline Values with(Values values, const Values& changes) {
   values.insert(values.end(), changes.begin(), changes.end());
   return values;
+}
+
+/// Q parameters and their numbers as "273=100 274=80"; any other text throws, which fails the case.
+inline Values values(const std::string& text) {
+  Values all;
+  std::istringstream in(text);
+  int parameter = 0;
+  while (in >> parameter) {
+    char sign = 0;
+    double value = 0;
+    if (!(in >> sign >> value) || sign != '=') throw std::invalid_argument(text);
+    all.emplace_back(parameter, value);
+  }
+  if (!in.eof()) throw std::invalid_argument(text);
+  return all;
 }
 
 /// A simulated machine with the probe of the default setup (ball radius 2 mm, SET_UP 2, DIST 20) in

@@ -185,16 +185,12 @@ TEST_CASE("412 in any plane: the centre reads its target there, whatever the hei
     PlaneBench bench(place, {machine::Block{{-400, -400, -300}, {400, 400, place.foot.z}}, bore});
     const Vec3 at = bench.nominal + Vec3{0.3, -0.2, 0};
     const double height = at.z - 22 - static_cast<double>(seed % 9);
-    bench.set_datum(412, {{321, at.x},
-                          {322, at.y},
-                          {262, 29.5},
-                          {325, 10.0},
-                          {247, 90.0},
-                          {261, height},
-                          {320, 0.0},
-                          {260, at.z + 40},
-                          {331, place.target.x},
-                          {332, place.target.y}});
+    bench.set_datum(412, with(values("262=29.5 325=10 247=90 320=0"), {{321, at.x},
+                                                                       {322, at.y},
+                                                                       {261, height},
+                                                                       {260, at.z + 40},
+                                                                       {331, place.target.x},
+                                                                       {332, place.target.y}}));
     const Vec3 reads = place.reading(bench.active(), place.foot);
     CHECK(std::abs(reads.x - place.target.x) < 2e-8);
     CHECK(std::abs(reads.y - place.target.y) < 2e-8);
@@ -205,18 +201,12 @@ TEST_CASE("412 in any plane: the centre reads its target there, whatever the hei
       CHECK(std::abs(bench.host.q[151] - place.target.x) < 1.5e-6);
       CHECK(std::abs(bench.host.q[152] - place.target.y) < 1.5e-6);
     };
-    REQUIRE(bench.run(
-                412,
-                with(again,
-                     {{321, place.target.x}, {322, place.target.y}, {305, 9.0}, {303, 1.0}})) == 0);
+    REQUIRE(bench.run(412, with(again, with(values("305=9 303=1"),
+                                            {{321, place.target.x}, {322, place.target.y}}))) == 0);
     check_centre();
     if (place.is_turned()) continue;
-    REQUIRE(bench.run(421, with(again, {{273, place.target.x},
-                                        {274, place.target.y},
-                                        {275, 0.0},
-                                        {276, 0.0},
-                                        {279, 0.0},
-                                        {280, 0.0}})) == 0);
+    REQUIRE(bench.run(421, with(again, with(values("275=0 276=0 279=0 280=0"),
+                                            {{273, place.target.x}, {274, place.target.y}}))) == 0);
     check_centre();
   }
 }
@@ -241,19 +231,8 @@ TEST_CASE("415 with Q304 turns a part around its own normal, in space too") {
     };
     PlaneBench bench(place, {machine::Plane{place.foot, on_part({1, 0, 0})},
                              machine::Plane{place.foot, on_part({0, 1, 0})}});
-    REQUIRE(bench.run(415, {{263, 0.0},
-                            {264, 0.0},
-                            {326, 40.0},
-                            {327, 30.0},
-                            {308, 1.0},
-                            {261, -5.0},
-                            {320, 0.0},
-                            {260, 40.0},
-                            {304, 1.0},
-                            {305, 0.0},
-                            {331, 0.0},
-                            {332, 0.0},
-                            {303, 1.0}}) == 0);
+    REQUIRE(bench.run(415, values("263=0 264=0 326=40 327=30 308=1 261=-5 320=0 260=40 304=1 305=0 "
+                                  "331=0 332=0 303=1")) == 0);
     const machine::PresetFrame& row = bench.active();
     const Vec3 zero = place.reading(row, place.foot);
     CHECK(std::abs(zero.x) < 2e-6);
