@@ -141,15 +141,12 @@ TEST_CASE("Q330 corrects the radius of the named tool and watches for breakage")
   CHECK(bench.machine.state().tools.find(7)->locked);
 }
 
-TEST_CASE("421: errors of parameters, tools and motion") {
+TEST_CASE("421: errors of parameters and motion") {
   ProbingBench bench = hole_of(25.01);
-  CHECK(bench.run(421, with(hole_block(), {{247, 0.0}})) == 1066);
-  CHECK(bench.run(421, with(hole_block(), {{247, 4.9}})) == 1067);
   CHECK(bench.run(421, with(hole_block(), {{247, 120.1}})) == 1004);
   CHECK(bench.run(421, with(hole_block(), {{423, 5.0}})) == 1004);
   CHECK(bench.run(421, {{273, 50.0}}) == 1017);
   CHECK(bench.run(421, with(hole_block(), {{274, 150.0}})) == -1);  // collides with the plate
-  CHECK(hole_of(80).run(421, hole_block()) == 1014);
 }
 
 TEST_CASE("measuring resets a basic rotation") {

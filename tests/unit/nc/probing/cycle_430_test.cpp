@@ -39,7 +39,6 @@ TEST_CASE("430: centre, breakage and errors") {
   CHECK(bench.run(430, with(bolt_block(), {{330, 7.0}})) == 1065);
   CHECK(bench.machine.state().tools.find(7)->dr == 0);
   CHECK(bench.machine.state().tools.find(7)->locked);
-  CHECK(bench.run(430, with(bolt_block(), {{292, 0.0}, {293, 0.0}})) == 1081);
   CHECK(bench.run(430, with(bolt_block(), {{262, 80.0}})) == -1);
 }
 

@@ -135,7 +135,6 @@ TEST_CASE("444 refuses what it cannot work with") {
     ProbingBench bench({plate(0)});
     return bench.run(444, with(top_point(), changes));
   };
-  CHECK(error_after({{583, 0.0}}) == 1042);
   CHECK(error_after({{583, 10.1}}) == 1004);
   CHECK(error_after({{309, 3.0}}) == 1004);
   CHECK(error_after({{309, 0.5}}) == 1011);

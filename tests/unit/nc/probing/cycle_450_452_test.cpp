@@ -71,13 +71,11 @@ TEST_CASE("a record of another machine is not restored") {
 TEST_CASE("errors of 450") {
   ProbingBench bench(trunnion());
   CHECK(bench.run(450, record(4, 1.0)) == 1004);
-  CHECK(bench.run(450, {{410, kSave}}) == 1017);
   CHECK(bench.run(450, record(kSave, 1.5)) == 1011);
   CHECK(bench.run(450, record(kSave, 100000.0)) == 1004);
   CHECK(bench.run(450, record(kSave, std::string())) == 1011);
   CHECK(bench.run(450, record(kSave, std::string(17, 'A'))) == 1011);
   CHECK(bench.run(450, record(kSave, std::string("A\nB"))) == 1011);
-  CHECK(bench.run(450, record(kRestore, 1.0)) == 1096);
   CHECK(bench.run(450, record(kDelete, 1.0)) == 1011);
   for (int k = 0; k < 16; ++k) REQUIRE(bench.run(450, record(kSave, static_cast<double>(k))) == 0);
   CHECK(bench.run(450, record(kSave, 16.0)) == 1097);

@@ -339,18 +339,6 @@ TEST_CASE("errors of 451") {
   setup.machine.axes[0]->max = 75;
   SphereBench narrow(setup);
   CHECK(narrow.run(451, both_axes(3)) == 1101);
-  setup = trunnion();
-  setup.machine.calibration_sphere.reset();
-  ProbingBench empty(setup);
-  CHECK(empty.run(451, both_axes(3)) == 1014);
-  SphereBench rigid(sphere_setup());
-  CHECK(rigid.run(451, both_axes(3)) == 1100);
-  setup = trunnion();
-  setup.machine.presets.front().locked = true;
-  SphereBench locked(setup);
-  CHECK(locked.run(451, with(both_axes(3), {{431, 2.0}})) == 1085);
-  REQUIRE(locked.machine.call_tool({.number = 0, .axis = {}, .spindle_rpm = {}}).has_value());
-  CHECK(locked.run(451, both_axes(3)) == 1092);
 }
 
 TEST_CASE("what 451 promises for a fork head is what the next check finds") {

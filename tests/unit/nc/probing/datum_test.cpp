@@ -66,14 +66,6 @@ TEST_CASE("417 with Q303 = 0 writes the active datum table, relative to the pres
   CHECK(same(*values[machine::Axis::Z], -4.7));
 }
 
-TEST_CASE("417: errors of the transfer and of active transformations") {
-  ProbingBench bench({kDatumPlate});
-  CHECK(bench.run(417, with(block(), {{305, 3.0}, {303, -1.0}})) == 1078);
-  machine::Preset locked{.number = 6, .comment = {}, .frame = {}, .locked = true};
-  REQUIRE(bench.machine.write_preset(locked).has_value());
-  CHECK(bench.run(417, with(block(), {{305, 6.0}})) == 1085);
-}
-
 TEST_CASE("247 resets the transformations and takes a row by number or name") {
   ProbingBench bench;
   machine::Preset other{.number = 4, .comment = "VICE", .frame = {}};
