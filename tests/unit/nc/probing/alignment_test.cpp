@@ -20,12 +20,6 @@ machine::Setup with_table(std::vector<machine::Feature> features, Axis letter = 
   return setup;
 }
 
-/// Material beyond an edge 30 mm from the zero, at an angle to the main axis.
-Plane edge_at(double angle_deg) {
-  const auto [sine, cosine] = machine::sine_cosine(angle_deg);
-  const Vec3 normal{sine, -cosine, 0};
-  return {.point = normal * -30, .normal = normal};
-}
 const Values kEdge = values("263=10 264=30 265=60 266=30 272=2 267=1 261=0 260=100");
 
 std::vector<machine::Feature> two(double angle_deg, bool holes) {

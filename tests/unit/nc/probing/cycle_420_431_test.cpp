@@ -3,24 +3,12 @@
 #include "probing_bench.hpp"
 
 namespace fitgauge::probing {
-namespace {
-
-using machine::Plane;
-
-/// Material beyond an edge 30 mm from the zero, at an angle to the main axis.
-std::vector<machine::Feature> edge_features(double angle_deg) {
-  const auto [sine, cosine] = machine::sine_cosine(angle_deg);
-  const machine::Vec3 normal{sine, -cosine, 0};
-  return {Plane{.point = normal * -30, .normal = normal}};
-}
-
-}  // namespace
 
 TEST_CASE("420 measures the angle of an edge to the main axis") {
   const Values along_main =
       values("263=10 264=30 265=60 266=30 272=2 267=1 261=0 260=100 301=1 281=1 320=5");
   for (const double angle : {0.0, 1.5, -2.25}) {
-    ProbingBench bench(edge_features(angle));
+    ProbingBench bench({edge_at(angle)});
     CHECK(bench.run(420, along_main) == 0);
     CHECK(std::abs(bench.host.q[150] - angle) < 1e-7);
     CHECK(bench.host.files.at("TCHPR420.TXT").find("Measured angle:") != std::string::npos);
@@ -32,7 +20,7 @@ TEST_CASE("420 measures the angle of an edge to the main axis") {
   const Values across{{263, -30.0}, {264, 10.0}, {265, -30.0}, {266, 60.0}, {272, 1.0},
                       {267, -1.0},  {261, 0.0},  {260, 100.0}, {320, 5.0},  {281, 0.0}};
   for (const double angle : {90.0, 91.5, 88.0}) {
-    ProbingBench bench(edge_features(angle));
+    ProbingBench bench({edge_at(angle)});
     bench.host.q[180] = 1;
     CHECK(bench.run(420, across) == 0);
     CHECK(bench.host.q[180] == 1);
@@ -43,7 +31,7 @@ TEST_CASE("420 measures the angle of an edge to the main axis") {
 
 TEST_CASE("420 in the probe axis measures the slope along the axis in which the points differ") {
   const auto slope = [](const machine::Vec3& normal, double x2, double y2) {
-    ProbingBench bench({Plane{.point = {0, 0, 0}, .normal = normal}});
+    ProbingBench bench({machine::Plane{.point = {0, 0, 0}, .normal = normal}});
     CHECK(bench.run(420, with(values("263=0 264=0 272=3 267=-1 261=0 260=50"),
                               {{265, x2}, {266, y2}})) == 0);
     return bench.host.q[150];
@@ -54,7 +42,7 @@ TEST_CASE("420 in the probe axis measures the slope along the axis in which the 
 }
 
 TEST_CASE("420: a collision") {
-  ProbingBench bench(edge_features(0));
+  ProbingBench bench({edge_at(0)});
   const Values block = values("263=10 264=30 265=10 266=30 272=2 267=1 261=0 260=100");
   CHECK(bench.run(420, with(block, {{265, 60.0}, {266, 300.0}, {264, 300.0}})) == -1);
 }
@@ -65,7 +53,7 @@ TEST_CASE("431 gives the angles that tilt the working plane into the measured on
     const machine::Vec3 main = tilt * machine::Vec3{1, 0, 0};
     const machine::Vec3 secondary = tilt * machine::Vec3{0, 1, 0};
     const machine::Vec3 normal = tilt * machine::Vec3{0, 0, 1};
-    ProbingBench bench({Plane{.point = {0, 0, 0}, .normal = normal}});
+    ProbingBench bench({machine::Plane{.point = {0, 0, 0}, .normal = normal}});
     const machine::Vec3 second = main * 50;
     const machine::Vec3 third = secondary * 40 + main * 10;
     CHECK(bench.run(431, with(values("263=0 264=0 294=0 260=60"), {{265, second.x},

@@ -113,12 +113,8 @@ TEST_CASE("Q330 corrects the radius of the named tool and watches for breakage")
       .machine = {},
       .features = {kPlate, Bore{.centre = {100, 100}, .top = 0, .depth = 30, .diameter = 25.013},
                    Boss{.centre = {30, 30}, .top = 10, .height = 10, .diameter = 24.99}}};
-  machine::ToolSetup mill;
-  mill.row.number = 7;
-  mill.row.name = "MILL_D16";
-  mill.row.l = 80;
-  mill.row.r = 8;
-  setup.machine.tools.push_back(mill);
+  setup.machine.tools.push_back(tool_of(7, 80, 8));
+  setup.machine.tools.back().row.name = "MILL_D16";
   ProbingBench bench(setup);
   CHECK(bench.run(421, with(hole_block(), {{330, 7.0}})) == 0);
   CHECK(same(bench.machine.state().tools.find(7)->dr, 0.0065));
@@ -169,12 +165,8 @@ TEST_CASE("422 in the planes of the other tool axes: the equator of a sphere") {
   };
   for (const Case& c : {Case{Axis::X, 30, 10, -20}, Case{Axis::Y, 10, -20, 30}}) {
     ProbingBench bench({machine::Sphere{.centre = {-20, 30, 10}, .diameter = 24.99}});
-    machine::AxisWords aside;
-    aside[c.tool_axis] = 120.0;
-    REQUIRE(bench.machine.move({aside, {}}).has_value());
-    machine::AxisWords level;
-    level[Axis::Z] = 10.0;
-    REQUIRE(bench.machine.move({level, {}}).has_value());
+    bench.move(c.tool_axis, 120);
+    bench.move(Axis::Z, 10);
     REQUIRE(bench.machine.call_tool({.number = {}, .axis = c.tool_axis, .spindle_rpm = {}})
                 .has_value());
     for (const double via_clearance : {0.0, 1.0}) {

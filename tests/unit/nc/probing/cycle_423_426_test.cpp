@@ -84,10 +84,7 @@ TEST_CASE("423 touches a small pocket from its centre") {
 
 TEST_CASE("424: both lengths correct the tool by their mean") {
   machine::Setup setup{.machine = {}, .features = stud(60.02, 40.01)};
-  machine::ToolSetup mill;
-  mill.row.number = 7;
-  mill.row.r = 8;
-  setup.machine.tools.push_back(mill);
+  setup.machine.tools.push_back(tool_of(7, 80, 8));
   ProbingBench bench(setup);
   CHECK(bench.run(424, with(rectangle_block(), {{330, 7.0}})) == 0);
   CHECK(same(bench.machine.state().tools.find(7)->dr, -0.0075));

@@ -49,11 +49,7 @@ TEST_CASE("427 in the plane, from both sides") {
 
 TEST_CASE("427 corrects the length of a tool in the probe axis, its radius across it") {
   machine::Setup setup{.machine = {}, .features = {kRaisedPlate}};
-  machine::ToolSetup mill;
-  mill.row.number = 7;
-  mill.row.l = 80;
-  mill.row.r = 8;
-  setup.machine.tools.push_back(mill);
+  setup.machine.tools.push_back(tool_of(7, 80, 8));
   ProbingBench bench(setup);
   CHECK(bench.run(427, with(top_block(), {{330, 7.0}})) == 0);
   CHECK(same(bench.machine.state().tools.find(7)->dl, -0.013));  // too high: the tool is shorter
@@ -70,17 +66,10 @@ TEST_CASE("427 corrects the length of a tool in the probe axis, its radius acros
 
 TEST_CASE("the positioning logic lifts a probe below the clearance height first") {
   ProbingBench bench({kRaisedPlate});
-  machine::AxisWords low;
-  low[machine::Axis::X] = -20.0;
-  low[machine::Axis::Z] = -20.0;
   const auto stand_low = [&] {
-    machine::AxisWords up;
-    up[machine::Axis::Z] = 60.0;
-    REQUIRE(bench.machine.move({up, {}}).has_value());
-    machine::AxisWords beside;
-    beside[machine::Axis::X] = -20.0;
-    REQUIRE(bench.machine.move({beside, {}}).has_value());
-    REQUIRE(bench.machine.move({low, {}}).has_value());
+    bench.move(machine::Axis::Z, 60);
+    bench.move(machine::Axis::X, -20);
+    bench.move(machine::Axis::Z, -20);
   };
   stand_low();
   CHECK(bench.run(427, top_block()) == 0);

@@ -28,11 +28,8 @@ Values bolt_block() {
 
 TEST_CASE("430: centre, breakage and errors") {
   machine::Setup setup{.machine = {}, .features = holes(60.02, 0.1)};
-  machine::ToolSetup drill;
-  drill.row.number = 7;
-  drill.row.r = 5;
-  drill.row.r_breakage = 0.01;
-  setup.machine.tools.push_back(drill);
+  setup.machine.tools.push_back(tool_of(7, 80, 5));
+  setup.machine.tools.back().row.r_breakage = 0.01;
   ProbingBench bench(setup);
   CHECK(bench.run(430, with(bolt_block(), {{279, 0.1}})) == 0);
   CHECK(bench.run(430, with(bolt_block(), {{279, 0.09}})) == 1044);

@@ -45,12 +45,6 @@ ProbingBench bench_with_face(const Vec3& normal) {
   return ProbingBench(setup);
 }
 
-void turn(machine::Machine& machine, double a) {
-  machine::AxisWords words;
-  words[Axis::A] = a;
-  REQUIRE(machine.move({words, {}}).has_value());
-}
-
 }  // namespace
 
 TEST_CASE("444: good, rework and reject along the normal, limits inclusive, and what stops") {
@@ -173,7 +167,7 @@ TEST_CASE("444 in a tilted plane, whose rotary axes must stand square to it") {
     const Vec3 up = machine::Matrix3::spatial({30, 0, 0}) * Vec3{0, 0, 1};
     const auto found = bench.machine.state().kinematics.orientations(up, {}, Axis::Z);
     REQUIRE_FALSE(found.empty());
-    turn(bench.machine, found.front().x);
+    bench.move(Axis::A, found.front().x);
     CHECK(bench.run(444, block) == 0);
     check_results(bench, {}, unit(in_plane), kTooHigh);
     CHECK(bench.host.q[183] == 0);
@@ -187,7 +181,7 @@ TEST_CASE("444 with TCPM measures in workpiece coordinates whatever the inclinat
     machine::Modes modes = bench.machine.state().modes;
     modes.tcpm = true;
     REQUIRE(bench.machine.set_modes(modes).has_value());
-    turn(bench.machine, a);
+    bench.move(Axis::A, a);
     CHECK(bench.run(444, block_at(kFacePoint, normal, 80)) == 0);
     check_results(bench, kFacePoint, normal, kTooHigh);
   }
@@ -195,10 +189,8 @@ TEST_CASE("444 with TCPM measures in workpiece coordinates whatever the inclinat
 
 TEST_CASE("444 with the tool axis X: main axis Y, secondary axis Z, probe axis X") {
   ProbingBench bench({machine::Plane{{-7, 0, 0}, {1, 0, 0}}});
-  machine::AxisWords away;
-  away[Axis::X] = 300;
-  REQUIRE(bench.machine.move({away, {}}).has_value());
-  REQUIRE(bench.machine.call_tool({.number = 30, .axis = Axis::X, .spindle_rpm = {}}).has_value());
+  bench.move(Axis::X, 300);
+  bench.call(30, Axis::X);
   CHECK(bench.run(444, block_at({3, 4, -7.02}, {0, 0, 1}, 60)) == 0);
   check_results(bench, {3, 4, -7.02}, {0, 0, 1}, 0.02);
   CHECK(contains(log_of(bench, 444),

@@ -29,13 +29,6 @@ double distance(const ProbingBench& bench, const Setup& setup, Axis axis) {
   return norm(point_of(model_of(bench, axis), on_real) - on_real);
 }
 
-Setup with_location_errors() {
-  Setup setup = trunnion();
-  setup.machine.axes[index(Axis::A)]->centre_error = {0, 0.04, -0.03};
-  setup.machine.axes[index(Axis::C)]->centre_error = {-0.02, 0.05, 0};
-  return setup;
-}
-
 }  // namespace
 
 TEST_CASE("measuring positions are evenly spaced") {
@@ -308,10 +301,8 @@ TEST_CASE("Q431 sets the preset into the sphere") {
 TEST_CASE("a preset before finds the sphere with the axes anywhere") {
   const Setup setup = trunnion();
   ProbingBench bench(setup);
-  machine::AxisWords turned;
-  turned[Axis::A] = 20;
-  turned[Axis::C] = 70;
-  REQUIRE(bench.machine.move({turned, {}}).has_value());
+  bench.move(Axis::A, 20);
+  bench.move(Axis::C, 70);
   const Vec3 there = bench.machine.state().kinematics.table({20, 0, 70}).point(kSphere);
   REQUIRE(bench.machine
               .move({machine::AxisWords::linear(there + Vec3{0, 0, 25}),
@@ -418,9 +409,7 @@ TEST_CASE("an axis of mStrobeRotAxPos gets its targets in Q120 to Q122") {
   CHECK(bench.host.q[122] == 0);
   CHECK_FALSE(bench.host.q.contains(120));
   CHECK(contains(log_of(bench, 451), "not possible with an axis that an M function positions"));
-  machine::AxisWords turned;
-  turned[Axis::C] = 5;
-  REQUIRE(bench.machine.move({turned, {}}).has_value());
+  bench.move(Axis::C, 5);
   CHECK(bench.run(451, with(kinematics_block(), measured(Axis::C, -60, 120, 3))) == 1005);
 }
 

@@ -15,12 +15,10 @@ Values grid_block(double mode) {
 
 /// A table whose axes lie and point elsewhere than modelled.
 Setup with_errors() {
-  Setup setup = trunnion();
+  Setup setup = with_location_errors();
   setup.machine.axes[index(Axis::A)]->min = -60;
   setup.machine.axes[index(Axis::A)]->max = 80;
-  setup.machine.axes[index(Axis::A)]->centre_error = {0, 0.04, -0.03};
   setup.machine.axes[index(Axis::A)]->tilt_error_deg = {0, 0.01, 0.02};
-  setup.machine.axes[index(Axis::C)]->centre_error = {-0.02, 0.05, 0};
   setup.machine.axes[index(Axis::C)]->tilt_error_deg = {-0.01, 0.015, 0};
   return setup;
 }

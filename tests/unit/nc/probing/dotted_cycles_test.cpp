@@ -21,17 +21,12 @@ constexpr int kErrorMode = word(ParameterId::WordErrorMode);
 const machine::Block kClampedPlate{.min = {0, 0, -40}, .max = {100, 80, 0}};
 
 struct BesideThePlate : ProbingBench {
-  BesideThePlate();
-};
-
-BesideThePlate::BesideThePlate() : ProbingBench({kClampedPlate}) {
-  for (const auto& [axis, value] :
-       {std::pair{machine::Axis::X, -10.0}, {machine::Axis::Y, 40.0}, {machine::Axis::Z, -5.0}}) {
-    machine::AxisWords target;
-    target[axis] = value;
-    REQUIRE(machine.move({target, {}}).has_value());
+  BesideThePlate() : ProbingBench({kClampedPlate}) {
+    move(machine::Axis::X, -10);
+    move(machine::Axis::Y, 40);
+    move(machine::Axis::Z, -5);
   }
-}
+};
 
 }  // namespace
 

@@ -140,10 +140,7 @@ Setup calibration_setup() {
 
 Setup tool_setup() {
   Setup setup;
-  machine::ToolSetup& mill = setup.machine.tools.emplace_back();
-  mill.row.number = 5;
-  mill.row.l = 100;
-  mill.row.r = 6;
+  machine::ToolSetup& mill = setup.machine.tools.emplace_back(tool_of(5, 100, 6));
   mill.actual_length = 99.97;
   mill.actual_radius = 5.988;
   setup.machine.tt.actual_centre = Vec3{300.4, -0.3, 50.12};
@@ -151,11 +148,9 @@ Setup tool_setup() {
 }
 
 Setup kinematics_setup() {
-  Setup setup = trunnion();
+  Setup setup = with_location_errors();
   setup.machine.axes[index(Axis::A)]->min = -60;
   setup.machine.axes[index(Axis::A)]->max = 80;
-  setup.machine.axes[index(Axis::A)]->centre_error = {0, 0.04, -0.03};
-  setup.machine.axes[index(Axis::C)]->centre_error = {-0.02, 0.05, 0};
   setup.machine.axes[index(Axis::C)]->tilt_error_deg = {-0.01, 0.015, 0};
   return setup;
 }

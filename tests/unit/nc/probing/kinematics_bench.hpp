@@ -26,6 +26,14 @@ inline machine::Setup trunnion() {
   return setup;
 }
 
+/// A trunnion whose axes lie elsewhere than modelled.
+inline machine::Setup with_location_errors() {
+  machine::Setup setup = trunnion();
+  setup.machine.axes[index(machine::Axis::A)]->centre_error = {0, 0.04, -0.03};
+  setup.machine.axes[index(machine::Axis::C)]->centre_error = {-0.02, 0.05, 0};
+  return setup;
+}
+
 /// A bench whose probe stands over the sphere.
 class SphereBench : public ProbingBench {
  public:

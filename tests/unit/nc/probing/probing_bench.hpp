@@ -36,6 +36,22 @@ inline Values values(const std::string& text) {
   return all;
 }
 
+/// Material beyond an edge 30 mm from the zero, at an angle to the main axis.
+inline machine::Plane edge_at(double angle_deg) {
+  const auto [sine, cosine] = machine::sine_cosine(angle_deg);
+  const machine::Vec3 normal{sine, -cosine, 0};
+  return {.point = normal * -30, .normal = normal};
+}
+
+/// A tool as long and as thick as its row of the tool table says.
+inline machine::ToolSetup tool_of(int number, double length, double radius) {
+  machine::ToolSetup tool;
+  tool.row.number = number;
+  tool.row.l = length;
+  tool.row.r = radius;
+  return tool;
+}
+
 /// A simulated machine with the probe of the default setup (ball radius 2 mm, SET_UP 2, DIST 20) in
 /// the spindle, and a workpiece; cycles run on it one after the other.
 class ProbingBench {
@@ -46,6 +62,13 @@ class ProbingBench {
 
   void call(int number, machine::Axis axis = machine::Axis::Z) {
     REQUIRE(machine.call_tool({.number = number, .axis = axis, .spindle_rpm = {}}).has_value());
+  }
+
+  /// One axis, with the others where they are.
+  void move(machine::Axis axis, double target) {
+    machine::AxisWords words;
+    words[axis] = target;
+    REQUIRE(machine.move({words, {}}).has_value());
   }
 
   /// Error number and text; 0 when the cycle succeeds, -1 for a fault without a number.

@@ -13,11 +13,8 @@ using machine::Vec3;
 /// A worn end mill: 0.03 mm shorter and 0.012 mm thinner than tool.t says.
 Setup mill_setup() {
   Setup setup;
-  machine::ToolSetup mill;
-  mill.row.number = 5;
+  machine::ToolSetup& mill = setup.machine.tools.emplace_back(tool_of(5, 100, 6));
   mill.row.name = "MILL_D12";
-  mill.row.l = 100;
-  mill.row.r = 6;
   mill.row.teeth = 4;
   mill.row.l_tolerance = 0.05;
   mill.row.r_tolerance = 0.02;
@@ -25,7 +22,6 @@ Setup mill_setup() {
   mill.row.r_breakage = 0.5;
   mill.actual_length = 99.97;
   mill.actual_radius = 5.988;
-  setup.machine.tools.push_back(mill);
   return setup;
 }
 
@@ -199,11 +195,7 @@ TEST_CASE("480 finds centre and radius of the TT, and tools are right after it")
     setup.machine.tt.known.shape = shape;
     setup.machine.tt.actual_centre = Vec3{300.4, -0.3, 50.12};
     setup.machine.tt.actual_radius = 19.95;
-    machine::ToolSetup pin;
-    pin.row.number = 99;
-    pin.row.l = 80;
-    pin.row.r = 5;
-    setup.machine.tools.push_back(pin);
+    setup.machine.tools.push_back(tool_of(99, 80, 5));
     TtBench bench(setup);
     CHECK(bench.run(481, {{340, 2.0}, {260, 200.0}}) == 0);
     CHECK(same(bench.host.q[115], -0.03 + 0.12));  // the TT is higher than the control knows
@@ -222,11 +214,7 @@ TEST_CASE("480 finds centre and radius of the TT, and tools are right after it")
 TEST_CASE("484 calibrates the TT from where the tool stands") {
   Setup setup;
   setup.machine.tt.actual_centre = Vec3{-250, 120, 80};
-  machine::ToolSetup pin;
-  pin.row.number = 5;
-  pin.row.l = 80;
-  pin.row.r = 5;
-  setup.machine.tools.push_back(pin);
+  setup.machine.tools.push_back(tool_of(5, 80, 5));
   TtBench bench(setup);
   REQUIRE(bench.machine.move({machine::AxisWords::linear({-248, 121, 100}), {}}).has_value());
   CHECK(bench.run(484, {{536, 1.0}}) == 0);
