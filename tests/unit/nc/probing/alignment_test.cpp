@@ -41,11 +41,6 @@ const Values kStuds = values("268=20 269=0 313=10 261=5 270=120 271=0 314=10 315
 double rotation(const ProbingBench& bench) {
   return bench.machine.state().frames.preset().basic_rotation_deg.z;
 }
-double stored(const ProbingBench& bench, int row) {
-  const machine::Preset* preset = bench.machine.state().presets.find(row);
-  REQUIRE(preset != nullptr);
-  return preset->frame.basic_rotation_deg.z;
-}
 bool near(double a, double b) { return std::abs(a - b) < 1e-6; }
 
 }  // namespace
@@ -54,13 +49,13 @@ TEST_CASE("400 makes the angle of an edge the basic rotation") {
   ProbingBench bench({edge_at(1.5)});
   CHECK(bench.run(400, kEdge) == 0);
   CHECK(near(rotation(bench), 1.5));
-  CHECK(stored(bench, 1) == 0);
+  CHECK(bench.preset(1).basic_rotation_deg.z == 0);
   // A rotation that is active is reset first, so the angle does not add up.
   CHECK(bench.run(400, with(kEdge, {{307, 0.5}})) == 0);
   CHECK(near(rotation(bench), 1));
   CHECK(bench.run(400, with(kEdge, {{305, 4.0}})) == 0);
   CHECK(rotation(bench) == 0);
-  CHECK(near(stored(bench, 4), 1.5));
+  CHECK(near(bench.preset(4).basic_rotation_deg.z, 1.5));
   REQUIRE(bench.machine.activate_preset(4).has_value());
   CHECK(near(rotation(bench), 1.5));
 }
@@ -83,7 +78,7 @@ TEST_CASE("401 and 402 take the line between two holes or studs") {
     CHECK(near(rotation(holes), angle));
     ProbingBench studs(two(angle, false));
     CHECK(studs.run(402, with(kStuds, {{307, 1.0}, {305, 3.0}})) == 0);
-    CHECK(near(stored(studs, 3), angle - 1));
+    CHECK(near(studs.preset(3).basic_rotation_deg.z, angle - 1));
     CHECK(rotation(studs) == 0);
   }
 }
@@ -155,13 +150,13 @@ TEST_CASE("404 sets a basic rotation without touching") {
   ProbingBench bench;
   CHECK(bench.run(404, {{307, 3.0}, {305, 0.0}}) == 0);
   CHECK(rotation(bench) == 3);
-  CHECK(stored(bench, 1) == 0);
+  CHECK(bench.preset(1).basic_rotation_deg.z == 0);
   CHECK(bench.run(404, {{307, 4.0}}) == 0);
   CHECK(rotation(bench) == 4);
-  CHECK(stored(bench, 1) == 4);
+  CHECK(bench.preset(1).basic_rotation_deg.z == 4);
   CHECK(bench.run(404, {{307, 5.0}, {305, 6.0}}) == 0);
   CHECK(rotation(bench) == 4);
-  CHECK(stored(bench, 6) == 5);
+  CHECK(bench.preset(6).basic_rotation_deg.z == 5);
 }
 
 TEST_CASE("405 turns the table until the hole stands where it belongs") {

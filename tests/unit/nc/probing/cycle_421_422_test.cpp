@@ -9,7 +9,7 @@ using machine::Block;
 using machine::Bore;
 using machine::Boss;
 
-const Block kPlate{.min = {0, 0, -40}, .max = {200, 200, 0}};
+const Block kSquarePlate{.min = {0, 0, -40}, .max = {200, 200, 0}};
 
 /// A hole or stud of 25 in the middle of the plate, limits 25.021 and 25.
 Values hole_block() {
@@ -17,14 +17,14 @@ Values hole_block() {
 }
 ProbingBench hole_of(double diameter, std::array<double, 2> centre = {100, 100}) {
   return ProbingBench(
-      {kPlate, Bore{.centre = centre, .top = 0, .depth = 30, .diameter = diameter}});
+      {kSquarePlate, Bore{.centre = centre, .top = 0, .depth = 30, .diameter = diameter}});
 }
 Values stud_block() {
   return values("273=100 274=100 262=25 247=90 261=5 260=30 277=25 278=24.979");
 }
 ProbingBench stud_of(double diameter) {
   return ProbingBench(
-      {kPlate, Boss{.centre = {100, 100}, .top = 10, .height = 10, .diameter = diameter}});
+      {kSquarePlate, Boss{.centre = {100, 100}, .top = 10, .height = 10, .diameter = diameter}});
 }
 
 }  // namespace
@@ -77,7 +77,8 @@ TEST_CASE("an error of 421, 422, 412 and 413 names the bore or boss that is ther
 }
 
 TEST_CASE("421 touches a hole too small for the clearance from its centre") {
-  ProbingBench bench({kPlate, Bore{.centre = {100, 100}, .top = 0, .depth = 20, .diameter = 6}});
+  ProbingBench bench(
+      {kSquarePlate, Bore{.centre = {100, 100}, .top = 0, .depth = 20, .diameter = 6}});
   CHECK(bench.run(421, with(hole_block(), values("262=6 275=6.01 276=5.99 301=1"))) == 0);
   CHECK(same(bench.host.q[153], 6.0));
 }
@@ -111,7 +112,8 @@ TEST_CASE("421 writes its log where Q281 says") {
 TEST_CASE("Q330 corrects the radius of the named tool and watches for breakage") {
   machine::Setup setup{
       .machine = {},
-      .features = {kPlate, Bore{.centre = {100, 100}, .top = 0, .depth = 30, .diameter = 25.013},
+      .features = {kSquarePlate,
+                   Bore{.centre = {100, 100}, .top = 0, .depth = 30, .diameter = 25.013},
                    Boss{.centre = {30, 30}, .top = 10, .height = 10, .diameter = 24.99}}};
   setup.machine.tools.push_back(tool_of(7, 80, 8));
   setup.machine.tools.back().row.name = "MILL_D16";

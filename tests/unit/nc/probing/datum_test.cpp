@@ -9,32 +9,26 @@ const machine::Block kDatumPlate{.min = {0, 0, -40}, .max = {100, 80, 0.3}};
 
 Values block() { return values("263=50 264=40 294=0 320=0 260=50 333=5"); }
 
-const machine::PresetFrame& row(const ProbingBench& bench, int number) {
-  const machine::Preset* found = bench.machine.state().presets.find(number);
-  REQUIRE(found != nullptr);
-  return found->frame;
-}
-
 }  // namespace
 
 TEST_CASE("417 stores the datum, 247 activates it: the touched point then reads Q333") {
   ProbingBench bench({kDatumPlate});
   CHECK(bench.run(417, with(block(), {{305, 9.0}, {303, 1.0}})) == 0);
   CHECK(same(bench.host.q[160], 0.3));
-  CHECK(row(bench, 9).origin == machine::Vec3{0, 0, -4.7});
+  CHECK(bench.preset(9).origin == machine::Vec3{0, 0, -4.7});
   CHECK(bench.machine.state().active_preset == 1);
   CHECK(bench.run(247, {{339, 9.0}}, CycleFamily::CyclDef) == 0);
   CHECK(bench.machine.state().active_preset == 9);
   CHECK(bench.run(417, with(block(), {{294, 5.0}, {305, 10.0}, {333, 5.0}})) == 0);
   CHECK(same(bench.host.q[160], 5));
-  CHECK(row(bench, 10).origin == machine::Vec3{0, 0, -4.7});
+  CHECK(bench.preset(10).origin == machine::Vec3{0, 0, -4.7});
 }
 
 TEST_CASE("417 with Q305 = 0 makes row 0 the active preset at once") {
   ProbingBench bench({kDatumPlate});
   CHECK(bench.run(417, with(block(), {{305, 0.0}, {303, -1.0}})) == 0);
   CHECK(bench.machine.state().active_preset == 0);
-  CHECK(row(bench, 0).origin == machine::Vec3{0, 0, -4.7});
+  CHECK(bench.preset(0).origin == machine::Vec3{0, 0, -4.7});
   CHECK(same(bench.machine.state().frames.from_machine({0, 0, 0.3}).z, 5));
 }
 
@@ -45,8 +39,8 @@ TEST_CASE("417 changes only the probe axis of an existing row") {
   other.frame.basic_rotation_deg = {0, 0, 15};
   REQUIRE(bench.machine.write_preset(other).has_value());
   CHECK(bench.run(417, with(block(), {{305, 4.0}})) == 0);
-  CHECK(row(bench, 4).origin == machine::Vec3{10, 20, -4.7});
-  CHECK(row(bench, 4).basic_rotation_deg == machine::Vec3{0, 0, 15});
+  CHECK(bench.preset(4).origin == machine::Vec3{10, 20, -4.7});
+  CHECK(bench.preset(4).basic_rotation_deg == machine::Vec3{0, 0, 15});
   CHECK(bench.machine.state().presets.find(4)->comment == "VICE");
 }
 

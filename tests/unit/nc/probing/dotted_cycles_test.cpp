@@ -5,19 +5,6 @@
 namespace fitgauge::probing {
 namespace {
 
-constexpr int kDottedResult = word(ParameterId::WordResult);
-constexpr int kDottedAxis = word(ParameterId::WordAxis);
-constexpr int kDirection = word(ParameterId::WordDirection);
-constexpr int kDottedX = word(ParameterId::WordX);
-constexpr int kDottedY = word(ParameterId::WordY);
-constexpr int kDottedZ = word(ParameterId::WordZ);
-constexpr int kDottedAngle = word(ParameterId::WordAngle);
-constexpr int kDottedDistance = word(ParameterId::WordDistance);
-constexpr int kFeed = word(ParameterId::WordFeed);
-constexpr int kRetract = word(ParameterId::WordRetract);
-constexpr int kSystem = word(ParameterId::WordReferenceSystem);
-constexpr int kErrorMode = word(ParameterId::WordErrorMode);
-
 const machine::Block kClampedPlate{.min = {0, 0, -40}, .max = {100, 80, 0}};
 
 struct BesideThePlate : ProbingBench {
@@ -32,12 +19,7 @@ struct BesideThePlate : ProbingBench {
 
 TEST_CASE("TCH PROBE 0 gives the compensated coordinate and comes back to its position") {
   ProbingBench bench({kClampedPlate});
-  CHECK(bench.run(0, {{kDottedResult, 5.0},
-                      {kDottedAxis, 2.0},
-                      {kDirection, -1.0},
-                      {kDottedX, 50.0},
-                      {kDottedY, 40.0},
-                      {kDottedZ, 5.0}}) == 0);
+  CHECK(bench.run(0, values("result=5 axis=2 direction=-1 X=50 Y=40 Z=5")) == 0);
   CHECK(same(bench.host.q[5], 0));
   CHECK(bench.machine.position().linear == machine::Vec3{50, 40, 5});
   CHECK(same(bench.host.q[117], 120));
@@ -45,53 +27,46 @@ TEST_CASE("TCH PROBE 0 gives the compensated coordinate and comes back to its po
   CHECK(bench.host.records.empty());
 
   BesideThePlate side;
-  CHECK(side.run(0,
-                 {{kDottedResult, 5.0}, {kDottedAxis, 0.0}, {kDirection, 1.0}, {kDottedX, -8.0}}) ==
-        0);
+  CHECK(side.run(0, values("result=5 axis=0 direction=1 X=-8")) == 0);
   CHECK(same(side.host.q[5], 0));
   CHECK(same(side.host.q[115], -2));
-  CHECK(side.run(0, {{kDottedResult, 5.0}, {kDottedAxis, 0.0}, {kDirection, -1.0}}) == 1014);
-  CHECK(side.run(0, {{kDottedResult, 5.0}, {kDottedAxis, 0.0}, {kDirection, 0.0}}) == 1042);
+  CHECK(side.run(0, values("result=5 axis=0 direction=-1")) == 1014);
+  CHECK(side.run(0, values("result=5 axis=0 direction=0")) == 1042);
 }
 
 TEST_CASE("TCH PROBE 1 touches at an angle from its axis") {
   BesideThePlate bench;
-  CHECK(bench.run(1, {{kDottedAxis, 0.0}, {kDottedAngle, 30.0}}) == 0);
+  CHECK(bench.run(1, values("axis=0 angle=30")) == 0);
   CHECK(same(bench.host.q[115], -2));
   CHECK(std::abs(bench.host.q[116] - (40 + 8 * std::tan(machine::radians(30)))) < 1e-6);
 }
 
 TEST_CASE("TCH PROBE 3 gives the uncompensated position, or -1 without contact") {
   BesideThePlate bench;
-  const Values block{{kDottedResult, 1.0},    {kDottedAxis, 0.0}, {kDottedAngle, 0.0},
-                     {kDottedDistance, 10.0}, {kFeed, 100.0},     {kRetract, 1.0}};
+  const Values block = values("result=1 axis=0 angle=0 distance=10 feed=100 retract=1");
   CHECK(bench.run(3, block) == 0);
   CHECK(same(bench.host.q[1], -2));
   CHECK(same(bench.host.q[2], 40));
   CHECK(same(bench.host.q[3], -5));
   CHECK(bench.host.q[4] == 0);
   CHECK(same(bench.machine.position().linear.x, -3));
-  CHECK(bench.run(3, with(block, {{kSystem, 1.0}})) == 0);
+  CHECK(bench.run(3, with(block, values("system=1"))) == 0);
   CHECK(same(bench.host.q[3], 115));
-  CHECK(bench.run(3, with(block, {{kDottedDistance, 0.5}})) == 1014);
-  CHECK(bench.run(3, with(block, {{kDottedDistance, 0.4}, {kErrorMode, 1.0}})) == 0);
+  CHECK(bench.run(3, with(block, values("distance=0.5"))) == 1014);
+  CHECK(bench.run(3, with(block, values("distance=0.4 error-mode=1"))) == 0);
   CHECK(bench.host.q[4] == -1);
 }
 
 TEST_CASE("TCH PROBE 4 touches along a vector and goes on without contact") {
   BesideThePlate bench;
-  const Values block{{kDottedResult, 20.0},
-                     {kDottedX, 3.0},
-                     {kDottedY, 4.0},
-                     {kDottedDistance, 45.0},
-                     {kFeed, 100.0}};
+  const Values block = values("result=20 X=3 Y=4 distance=45 feed=100");
   CHECK(bench.run(4, block) == 0);
   CHECK(same(bench.host.q[20], -2));
   CHECK(std::abs(bench.host.q[21] - (40 + 8 * 4.0 / 3)) < 1e-6);
   CHECK(bench.host.q[23] == 0);
-  CHECK(bench.run(4, with(block, {{kDottedX, -3.0}})) == 0);
+  CHECK(bench.run(4, with(block, values("X=-3"))) == 0);
   CHECK(bench.host.q[23] == -1);
-  CHECK(bench.run(4, with(block, {{kDottedX, 0.0}, {kDottedY, 0.0}})) == 1042);
+  CHECK(bench.run(4, with(block, values("X=0 Y=0"))) == 1042);
 }
 
 TEST_CASE("441 changes how later cycles position, until the program ends") {

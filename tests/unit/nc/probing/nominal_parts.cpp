@@ -9,20 +9,9 @@ using machine::Boss;
 using machine::Feature;
 using machine::Vec3;
 
-const Block kPlate{{0, 0, -40}, {200, 160, 0}};
 const machine::Plane kFace{};
 const Vec3 kAbove{100, 80, 60};
 const Vec3 kBeside{-10, 40, -10};
-constexpr double kFirstResult = 1600;
-
-const int kResult = word(ParameterId::WordResult);
-const int kAxis = word(ParameterId::WordAxis);
-const int kSign = word(ParameterId::WordDirection);
-const int kX = word(ParameterId::WordX);
-const int kY = word(ParameterId::WordY);
-const int kZ = word(ParameterId::WordZ);
-const int kAngle = word(ParameterId::WordAngle);
-const int kDistance = word(ParameterId::WordDistance);
 
 std::vector<Feature> plate_with(const std::vector<std::array<double, 2>>& holes, double diameter) {
   std::vector<Feature> part{kFace};
@@ -37,10 +26,6 @@ std::vector<Feature> plate_with_studs(const std::vector<std::array<double, 2>>& 
   for (const auto& centre : studs) part.emplace_back(Boss{centre, 10, 10, diameter});
   return part;
 }
-/// 60 by 40 mm around (100, 80).
-const std::vector<Feature> kPocket{
-    Block{{0, 0, -40}, {70, 160, 0}}, Block{{130, 0, -40}, {200, 160, 0}},
-    Block{{70, 0, -40}, {130, 60, 0}}, Block{{70, 100, -40}, {130, 160, 0}}};
 const std::vector<Feature> kRectangle{Block{{0, 0, -60}, {200, 160, -20}},
                                       Block{{70, 60, -20}, {130, 100, 0}}};
 const std::vector<Feature> kHole = plate_with({{100, 80}}, 25);
@@ -50,7 +35,7 @@ const std::vector<Feature> kBolts = plate_with({{130, 80}, {100, 110}, {70, 80}}
 const Values kClear{{260, 30.0}, {320, 0.0}};
 const Values kQuiet = with(kClear, {{281, 0.0}});
 const Values kRow = with(kClear, {{305, 9.0}});
-const Values kEdge = values("263=20 264=0 265=180 266=0 272=2 267=1 261=-5");
+const Values kAlongEdge = values("263=20 264=0 265=180 266=0 272=2 267=1 261=-5");
 const Values kRound{{262, 25.0}, {247, 90.0}};
 const Values kBoltCircle = values("273=100 274=80 262=60 291=0 292=90 293=180 261=-5");
 const Values kTwoHoles{{268, 50.0}, {269, 40.0}, {270, 150.0}, {271, 40.0}};
@@ -66,35 +51,25 @@ const Results kCircle = join(kCentre, {{153, 25}, {163, 0}});
 const Results kSides = join(kCentre, {{154, 60}, {155, 40}, {164, 0}, {165, 0}});
 
 void add_touches(std::vector<NominalCase>& cases) {
-  cases.push_back(
-      {0,
-       {kPlate},
-       kAbove,
-       {{kResult, kFirstResult}, {kAxis, 2.0}, {kSign, -1.0}, {kX, 50.0}, {kY, 40.0}, {kZ, 5.0}},
-       {{1600, 0}},
-       {{2, 0}}});
-  cases.push_back({1,
+  cases.push_back({0,
                    {kPlate},
-                   kBeside,
-                   {{kAxis, 0.0}, {kAngle, 0.0}, {kX, -10.0}, {kY, 40.0}, {kZ, -10.0}},
-                   {},
-                   {{0, 0}}});
+                   kAbove,
+                   values("result=1600 axis=2 direction=-1 X=50 Y=40 Z=5"),
+                   {{1600, 0}},
+                   {{2, 0}}});
+  cases.push_back({1, {kPlate}, kBeside, values("axis=0 angle=0 X=-10 Y=40 Z=-10"), {}, {{0, 0}}});
   cases.push_back({3,
                    {kPlate},
                    kBeside,
-                   {{kResult, kFirstResult}, {kAxis, 0.0}, {kAngle, 0.0}, {kDistance, 15.0}},
+                   values("result=1600 axis=0 angle=0 distance=15"),
                    {{1603, 0}},
                    {{0, 0}}});
-  cases.push_back({4,
-                   {kPlate},
-                   kBeside,
-                   {{kResult, kFirstResult}, {kX, 1.0}, {kDistance, 15.0}},
-                   {{1603, 0}},
-                   {{0, 0}}});
+  cases.push_back(
+      {4, {kPlate}, kBeside, values("result=1600 X=1 distance=15"), {{1603, 0}}, {{0, 0}}});
 }
 
 void add_measuring(std::vector<NominalCase>& cases) {
-  cases.push_back({420, {kPlate}, {20, -30, 60}, with(kEdge, kQuiet), {{150, 0}}});
+  cases.push_back({420, {kPlate}, {20, -30, 60}, with(kAlongEdge, kQuiet), {{150, 0}}});
   cases.push_back({421, kHole, kAbove,
                    with(with(kRound, kQuiet), values("273=100 274=80 261=-5 275=25.021 276=25")),
                    join(kCircle, kGood)});
@@ -176,7 +151,7 @@ void add_datums(std::vector<NominalCase>& cases) {
 }
 
 void add_alignment(std::vector<NominalCase>& cases) {
-  cases.push_back({400, {kPlate}, {20, -30, 60}, with(kEdge, kClear), {}});
+  cases.push_back({400, {kPlate}, {20, -30, 60}, with(kAlongEdge, kClear), {}});
   cases.push_back({401,
                    plate_with({{50, 40}, {150, 40}}, 10),
                    kAbove,
@@ -187,7 +162,7 @@ void add_alignment(std::vector<NominalCase>& cases) {
                    kAbove,
                    with(with(kTwoHoles, kClear), values("313=10 314=10 261=5 315=5 301=1")),
                    {}});
-  cases.push_back({403, {kPlate}, {20, -30, 60}, with(kEdge, kClear), {{150, 0}}});
+  cases.push_back({403, {kPlate}, {20, -30, 60}, with(kAlongEdge, kClear), {{150, 0}}});
   cases.push_back({405,
                    plate_with({{100, 80}}, 25),
                    kAbove,

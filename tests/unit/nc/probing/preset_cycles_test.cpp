@@ -10,7 +10,6 @@ using machine::Bore;
 using machine::Plane;
 using machine::Vec3;
 
-const Block kLargePlate{.min = {0, 0, -40}, .max = {200, 160, 0}};
 /// All presets here go to row 9, with 1 and 2 as new datum in the plane.
 const Values kDatum{{305, 9.0}, {303, 1.0}, {331, 1.0}, {332, 2.0}};
 /// And 3 in the probe axis, touched beside the feature.
@@ -23,13 +22,7 @@ std::vector<machine::Feature> pocket(double x1, double y1, double x2, double y2)
           Block{.min = {x1, y2, -40}, .max = {x2, 160, 0}}};
 }
 std::vector<machine::Feature> stud(double x1, double y1, double x2, double y2) {
-  return {kLargePlate, Block{.min = {x1, y1, 0}, .max = {x2, y2, 20}}};
-}
-
-Vec3 row9(const ProbingBench& bench) {
-  const machine::Preset* row = bench.machine.state().presets.find(9);
-  REQUIRE(row != nullptr);
-  return row->frame.origin;
+  return {kPlate, Block{.min = {x1, y1, 0}, .max = {x2, y2, 20}}};
 }
 
 void check_near(const Vec3& a, const Vec3& b) {
@@ -48,13 +41,13 @@ TEST_CASE("408 and 409 set the datum in the middle of a slot and a ridge") {
     CHECK(slot.run(408, with(block, {{272, 1.0}, {301, via_clearance}})) == 0);
     CHECK(same(slot.host.q[157], 100.2));
     CHECK(same(slot.host.q[166], 30.2));
-    check_near(row9(slot), {99.2, 0, 0});
+    check_near(slot.preset(9).origin, {99.2, 0, 0});
   }
   ProbingBench ridge(stud(60, 64.9, 140, 95));
   CHECK(ridge.run(409, with(with(block, {{272, 2.0}, {261, 5.0}}), kProbeAxis)) == 0);
   CHECK(same(ridge.host.q[157], 79.95));
   CHECK(same(ridge.host.q[166], 30.1));
-  check_near(row9(ridge), {0, 78.95, -3});
+  check_near(ridge.preset(9).origin, {0, 78.95, -3});
 }
 
 TEST_CASE("414 and 415 find each corner of a part that stands turned in its preset") {
@@ -111,7 +104,7 @@ TEST_CASE("414 and 415 find each corner of a part that stands turned in its pres
 }
 
 TEST_CASE("418 sets the datum where the lines between four holes meet") {
-  std::vector<machine::Feature> features{kLargePlate};
+  std::vector<machine::Feature> features{kPlate};
   for (const auto& centre :
        {std::array{60.0, 50.0}, {140.0, 50.1}, {140.2, 110.0}, {60.0, 110.0}}) {
     features.push_back(Bore{.centre = centre, .top = 0, .depth = 20, .diameter = 10});
@@ -124,18 +117,18 @@ TEST_CASE("418 sets the datum where the lines between four holes meet") {
                with(kDatum, kProbeAxis))) == 0);
   // x = 60 + 80.2 t, y = 50 + 60 t meets x = 140 - 80 s, y = 50.1 + 59.9 s.
   const double t = (80 * 0.1 + 80 * 59.9) / (80.2 * 59.9 + 80 * 60);
-  check_near(row9(bench), {60 + 80.2 * t - 1, 50 + 60 * t - 2, -3});
+  check_near(bench.preset(9).origin, {60 + 80.2 * t - 1, 50 + 60 * t - 2, -3});
   CHECK(same(bench.host.q[151], std::round((60 + 80.2 * t) * 1e6) / 1e6));
 }
 
 TEST_CASE("419 sets the datum in any one axis") {
-  ProbingBench bench({kLargePlate});
+  ProbingBench bench({kPlate});
   const Values block = values("263=0 264=80 261=-5 260=40 272=1 267=1 333=7 305=9");
   CHECK(bench.run(419, block) == 0);
   CHECK(same(bench.host.q[160], 0));
-  check_near(row9(bench), {-7, 0, 0});
+  check_near(bench.preset(9).origin, {-7, 0, 0});
   CHECK(bench.run(419, with(block, {{263, 20.0}, {261, 0.0}, {272, 3.0}, {267, -1.0}})) == 0);
-  check_near(row9(bench), {-7, 0, -7});
+  check_near(bench.preset(9).origin, {-7, 0, -7});
 }
 
 TEST_CASE("presets in a rotated preset move along its own axes") {

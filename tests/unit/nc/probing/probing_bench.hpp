@@ -21,20 +21,38 @@ inline Values with(Values values, const Values& changes) {
   return values;
 }
 
-/// Q parameters and their numbers as "273=100 274=80"; any other text throws, which fails the case.
+/// The words of the dotted cycles in values(), as ParameterId has them.
+inline constexpr std::array<std::string_view, 12> kWords{
+    "result", "axis",     "direction", "X",       "Y",      "Z",
+    "angle",  "distance", "feed",      "retract", "system", "error-mode"};
+
+inline int key_of(const std::string& name) {
+  const auto found = std::ranges::find(kWords, name);
+  if (found != kWords.end())
+    return word(ParameterId::WordResult) + static_cast<int>(found - kWords.begin());
+  std::size_t end = 0;
+  const int parameter = std::stoi(name, &end);
+  if (end != name.size()) throw std::invalid_argument(name);
+  return parameter;
+}
+
+/// Parameters and numbers as "273=100 274=80"; any other text throws, which fails the case.
 inline Values values(const std::string& text) {
   Values all;
   std::istringstream in(text);
-  int parameter = 0;
-  while (in >> parameter) {
-    char sign = 0;
+  for (std::string name; std::getline(in >> std::ws, name, '=');) {
     double value = 0;
-    if (!(in >> sign >> value) || sign != '=') throw std::invalid_argument(text);
-    all.emplace_back(parameter, value);
+    if (!(in >> value)) throw std::invalid_argument(text);
+    all.emplace_back(key_of(name), value);
   }
-  if (!in.eof()) throw std::invalid_argument(text);
   return all;
 }
+
+inline const machine::Block kPlate{{0, 0, -40}, {200, 160, 0}};
+/// 60 by 40 mm around (100, 80) of the plate.
+inline const std::vector<machine::Feature> kPocket{
+    machine::Block{{0, 0, -40}, {70, 160, 0}}, machine::Block{{130, 0, -40}, {200, 160, 0}},
+    machine::Block{{70, 0, -40}, {130, 60, 0}}, machine::Block{{70, 100, -40}, {130, 160, 0}}};
 
 /// Material beyond an edge 30 mm from the zero, at an angle to the main axis.
 inline machine::Plane edge_at(double angle_deg) {
@@ -62,6 +80,12 @@ class ProbingBench {
 
   void call(int number, machine::Axis axis = machine::Axis::Z) {
     REQUIRE(machine.call_tool({.number = number, .axis = axis, .spindle_rpm = {}}).has_value());
+  }
+
+  const machine::PresetFrame& preset(int row) const {
+    const machine::Preset* found = machine.state().presets.find(row);
+    REQUIRE(found != nullptr);
+    return found->frame;
   }
 
   /// One axis, with the others where they are.
