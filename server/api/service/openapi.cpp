@@ -337,15 +337,21 @@ void add_openapi_route(Routes& add, const Schemas& of_plant) {
        .tag = "service",
        .outcomes = {{.meaning = "OpenAPI 3.1", .schema = "Description"}}});
   // Written for the first that asks: else it takes an eighth of each start.
-  const auto written =
-      std::make_shared<std::pair<std::once_flag, std::shared_ptr<const http::PreparedResponse>>>();
-  add.all.back().handler = [written, routes = add.all,
-                            of_plant](const Request&) -> Result<Response> {
-    auto& [once, document] = *written;
-    std::call_once(once, [&, &prepared = document] {
-      prepared = http::prepare({200, "application/json", openapi_json(routes, of_plant)});
+  struct Description {
+    std::vector<http::Route> routes;
+    Schemas of_plant;
+    std::once_flag once{};
+    std::shared_ptr<const http::PreparedResponse> document{};
+  };
+  const auto made = std::make_shared<Description>(add.all, of_plant);
+  add.all.back().handler = [made](const Request&) -> Result<Response> {
+    std::call_once(made->once, [&made] {
+      made->document =
+          http::prepare({200, "application/json", openapi_json(made->routes, made->of_plant)});
+      made->routes = {};
+      made->of_plant = {};
     });
-    return Response(document);
+    return Response(made->document);
   };
 }
 
