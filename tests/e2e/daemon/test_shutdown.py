@@ -29,6 +29,9 @@ class Load:
             "limits": ("GET", "/v1/limits/25H7", None), "list": ("GET", "/v1/measurements?limit=100", None),
             "summary": ("GET", "/v1/measurements/summary?group_by=machine", None),
             "metrics": ("GET", "/metrics", None), "table": ("GET", "/v1/tables/shaft", None),
+            "files": ("GET", "/v1/files", None), "file": ("GET", "/v1/files/loop.h", None),
+            "setup": ("PUT", "/v1/setups/shop", {"seed": 7}), "setups": ("GET", "/v1/setups", None),
+            "runs": ("GET", "/v1/runs?limit=5", None),
             "bulk": ("POST", "/v1/measurements", bulk), "run": ("POST", "/v1/runs", order),
             "events": ("GET", "/v1/events", None)}
         self.threads = [threading.Thread(target=self.repeat, args=(name, *request))
