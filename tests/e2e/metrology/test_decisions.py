@@ -204,6 +204,8 @@ class Kept(DaemonTest):
         self.assertNotIn("calibration_overdue", record)
         self.assertEqual(measure(rule="guard_band", measured_mm="25.001", **in_time)["verdict"], "good")
         self.assertNotIn("uncertainty_um", measure())
+        own = measure(rule="guard_band", uncertainty_um=0.1, **in_time)
+        self.assertEqual((own["verdict"], "uncertainty" in own), ("good", False))
         late = measure(rule="conformance")
         self.assertEqual((late["calibration_overdue"], late["calibration_due"], late["uncertainty"]),
                          (True, "2026-03-31", "plug"))

@@ -108,6 +108,7 @@ class BadMachineTable(ControlTest):
         self.assertIn("row 5, column L", problem["detail"])
         # Probe 2 is nowhere.
         self.upload("table/tool.t", TOOLS)
-        self.assert_problem(self.post_run(program), 422, "table.malformed")
+        problem = self.assert_problem(self.post_run(program), 422, "table.malformed")
+        self.assertIn("row 30, probe: probe not found: 2", problem["detail"])
         self.daemon.request("DELETE", "/v1/files/table/tool.t")
         self.assertEqual(self.run_program(program)["status"], "completed")

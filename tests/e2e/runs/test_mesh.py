@@ -69,6 +69,10 @@ class Meshes(ControlTest):
         lying = [[(x / 25.4, -z / 25.4, y / 25.4) for x, y, z in t] for t in self.RING]
         self.upload("parts/ring.stl", binary(lying))
         self.assert_bore(self.measured(self.mesh(unit="inch", origin_mm=[50, 40, 0], spatial_angles_deg=[-90, 0, 0])))
+        # Beside its zero and above it, and turned about Z.
+        aside = [[(x + 7, y, z + 25) for x, y, z in t] for t in self.RING]
+        self.upload("parts/ring.stl", binary(aside))
+        self.assert_bore(self.measured(self.mesh(origin_mm=[50, 33, -25], spatial_angles_deg=[0, 0, 90])))
 
     def test_a_bore_in_a_mesh_is_exact(self):
         self.upload("parts/ring.stl", binary(self.RING))

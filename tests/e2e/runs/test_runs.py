@@ -286,7 +286,7 @@ class Runs(ControlTest):
                                  "/limits/seconds", "/on_stop", "/block_skip", "/more"})
 
     def test_unknown_run(self):
-        for path in ("r999", "r999/trace", "r999/events", "r999/parameters", "r999/files/x", "nonsense"):
+        for path in ("r0", "r999", "r999/trace", "r999/events", "r999/parameters", "r999/files/x", "nonsense"):
             self.assert_problem(self.daemon.get(f"/v1/runs/{path}"), 404, "run.unknown")
 
     def test_cycles_are_described(self):
