@@ -53,12 +53,12 @@ class Signing(unittest.TestCase):
         return path
 
     @classmethod
-    def signed(cls, name, *key):
+    def signed(cls, name, *key, **environment):
         dist = cls.folder / name
         dist.mkdir()
         (dist / "fitgauge-9.9.9-amd64.oci.tar").write_bytes(b"an image\n" * 100)
         built = run("dpkg-deb", "--root-owner-group", "--build", cls.folder / "package", dist / "fitgauge_9.9.9-1_amd64.deb")
-        done = run(ROOT / "scripts/release_sign", dist, *key)
+        done = run(ROOT / "scripts/release_sign", dist, *key, **environment)
         if built.returncode or done.returncode:
             raise RuntimeError(built.stderr + done.stderr)
         return dist
@@ -133,7 +133,7 @@ class Signing(unittest.TestCase):
 
     def test_the_same_key_signs_the_same_bytes(self):
         self.leave_semaphores()
-        again = self.signed("again", self.keys[0])
+        again = self.signed("again", self.keys[0], TZ="Europe/Berlin")
         files = sorted(each.relative_to(again) for each in again.rglob("*") if each.is_file())
         self.assertEqual(files, sorted(each.relative_to(self.dist) for each in self.dist.rglob("*") if each.is_file()))
         for each in files:
