@@ -57,8 +57,9 @@ export async function saved(page, act) {
   for (const until = Date.now() + PATIENCE_MS; Date.now() < until; await page.waitForTimeout(50)) {
     const names = fs.readdirSync(downloads());
     const [name] = names;
-    // A file that is not whole yet has another beside it.
-    if (names.length === 1 && !name.endsWith('.part') && fs.statSync(path.join(folder, name)).size > 0) {
+    // A file that is not whole yet has another beside it, and may be renamed before it is looked at.
+    const file = names.length === 1 && !name.endsWith('.part') && fs.statSync(path.join(folder, name), { throwIfNoEntry: false });
+    if (file && file.size > 0) {
       const bytes = fs.readFileSync(path.join(folder, name));
       fs.rmSync(path.join(folder, name));
       return [name, bytes];
