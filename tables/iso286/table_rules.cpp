@@ -78,29 +78,33 @@ std::vector<Error> compare_structure(const TableData& data) {
 
 using Findings = std::vector<Error>;
 using Column = IndexedTable::Column;
+using Grade = StandardToleranceGrade;
 
 constexpr TableId kGrades = TableId::ItGrades;
 constexpr TableId kHoles = TableId::HoleFundamentalDeviations;
 
-std::string grade_column(std::size_t grade) {
-  return "IT" + std::string(text(static_cast<StandardToleranceGrade>(grade)));
+std::string grade_column(Grade grade) { return "IT" + std::string(text(grade)); }
+
+constexpr Grade next_coarser(Grade grade) {
+  return static_cast<Grade>(static_cast<std::uint8_t>(grade) + 1);
 }
 
 /// In each step every grade is coarser than the previous one; only the finest may be missing.
 void check_grades_increase(const IndexedTable& table, Findings& findings) {
-  for (std::size_t grade = 1; grade < kGradeCount; ++grade) {
-    const Column finer = table.column(grade_column(grade - 1));
+  for (Grade before = Grade::IT01; before < Grade::IT18; before = next_coarser(before)) {
+    const Grade grade = next_coarser(before);
+    const Column finer = table.column(grade_column(before));
     const Column coarser = table.column(grade_column(grade));
     for (std::size_t i = 0; i < table.ranges().size(); ++i) {
       if (!finer[i] || (coarser[i] && *coarser[i] > *finer[i])) continue;
       findings.push_back(finding(kGrades, table.ranges()[i], grade_column(grade),
-                                 "is not greater than " + grade_column(grade - 1)));
+                                 "is not greater than " + grade_column(before)));
     }
   }
 }
 
 void check_tolerances_grow_with_size(const IndexedTable& table, Findings& findings) {
-  for (std::size_t grade = 0; grade < kGradeCount; ++grade) {
+  for (Grade grade = Grade::IT01; grade <= Grade::IT18; grade = next_coarser(grade)) {
     const Column column = table.column(grade_column(grade));
     for (std::size_t i = 1; i < column.size(); ++i) {
       if (!column[i] || (column[i - 1] && *column[i] >= *column[i - 1])) continue;
@@ -113,14 +117,13 @@ void check_tolerances_grow_with_size(const IndexedTable& table, Findings& findin
 /// delta_ITn = IT(n) - IT(n-1) from 3 to 500 mm, otherwise 0 (ISO 286-1, 4.3.2.5).
 void check_deltas(const StandardTables& tables, Findings& findings) {
   constexpr NominalSizeRange kWithDelta{Length::millimetres(3), Length::millimetres(500)};
-  constexpr auto kFirst = static_cast<std::size_t>(StandardToleranceGrade::IT3);
-  constexpr auto kLast = static_cast<std::size_t>(StandardToleranceGrade::IT8);
   const auto& ranges = tables.holes.ranges();
-  for (std::size_t grade = kFirst; grade <= kLast; ++grade) {
+  for (Grade before = Grade::IT2; before < Grade::IT8; before = next_coarser(before)) {
+    const Grade grade = next_coarser(before);
     const std::string name = "delta_" + grade_column(grade);
     const Column deltas = tables.holes.column(name);
     const Column coarser = tables.tolerances.column(grade_column(grade));
-    const Column finer = tables.tolerances.column(grade_column(grade - 1));
+    const Column finer = tables.tolerances.column(grade_column(before));
     for (std::size_t i = 0; i < ranges.size(); ++i) {
       const std::size_t step = tables.tolerances.index_of(ranges[i]);
       if (!coarser[step] || !finer[step]) continue;  // found above
@@ -167,8 +170,7 @@ void check_classes(const StandardTables& tables, Findings& findings) {
   for (std::uint16_t id = 0; id < kStandardClassCount; ++id) {
     const ToleranceClass c = standard_class(ClassId{id});
     const auto deviations = derive(tables, c, ranges);
-    const Column tolerances =
-        tables.tolerances.column(grade_column(static_cast<std::size_t>(c.grade)));
+    const Column tolerances = tables.tolerances.column(grade_column(c.grade));
     for (std::size_t i = 0; i < ranges.size(); ++i) {
       if (!deviations[i]) continue;
       const auto& [upper, lower] = *deviations[i];
