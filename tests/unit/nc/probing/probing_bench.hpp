@@ -36,14 +36,17 @@ inline int key_of(const std::string& name) {
   return parameter;
 }
 
-/// Parameters and numbers as "273=100 274=80"; any other text throws, which fails the case.
+/// Parameters, each once, and numbers as "273=100 274=80"; any other text throws, which fails the
+/// case.
 inline Values values(const std::string& text) {
   Values all;
   std::istringstream in(text);
   for (std::string name; std::getline(in >> std::ws, name, '=');) {
     double value = 0;
-    if (!(in >> value)) throw std::invalid_argument(text);
-    all.emplace_back(key_of(name), value);
+    const int key = key_of(name);
+    const bool is_first = std::ranges::count(all, key, &Values::value_type::first) == 0;
+    if (!(in >> value) || !is_first) throw std::invalid_argument(text);
+    all.emplace_back(key, value);
   }
   return all;
 }
@@ -100,7 +103,11 @@ class ProbingBench {
     const TouchProbeCycle* cycle = find_cycle(family, number);
     REQUIRE(cycle != nullptr);
     Arguments arguments(cycle->descriptor);
-    for (const auto& [parameter, value] : values) arguments.set(q(parameter), value);
+    for (const auto& [parameter, value] : values) {
+      CAPTURE(parameter);
+      REQUIRE(cycle->descriptor.find(q(parameter)) != nullptr);
+      arguments.set(q(parameter), value);
+    }
     const auto result = run_cycle(*cycle, std::move(arguments), machine, host);
     if (result) return 0;
     fault = result.error();
