@@ -55,25 +55,26 @@ TEST_CASE("an error of 421, 422, 412 and 413 names the bore or boss that is ther
   const auto preset_block = [](double height) {
     return Values{{321, 100.0}, {322, 100.0}, {262, 25.0}, {247, 90.0}, {261, height}, {260, 30.0}};
   };
+  // The number of the error, and its text from the part on.
   const auto text = [](ProbingBench bench, int number, const Values& values) {
-    REQUIRE(bench.run(number, values) != 0);
+    const std::string error = std::to_string(bench.run(number, values));
     const auto at = bench.fault.text.find("; ");
-    return at == std::string::npos ? "" : bench.fault.text.substr(at);
+    return at == std::string::npos ? error : error + bench.fault.text.substr(at);
   };
   const std::string boss = "; the setup has a boss of 25 mm here: cycle ";
   const std::string bore = "; the setup has a bore of 25 mm here: cycle ";
-  CHECK(text(stud_of(25), 421, with(hole_block(), {{261, 5.0}})) == boss + "422");
-  CHECK(text(stud_of(25), 412, preset_block(5)) == boss + "413");
-  CHECK(text(hole_of(25), 422, with(stud_block(), {{261, -5.0}})) == bore + "421");
-  CHECK(text(hole_of(25), 413, preset_block(-5)) == bore + "412");
+  CHECK(text(stud_of(25), 421, with(hole_block(), {{261, 5.0}})) == "-1" + boss + "422");
+  CHECK(text(stud_of(25), 412, preset_block(5)) == "-1" + boss + "413");
+  CHECK(text(hole_of(25), 422, with(stud_block(), {{261, -5.0}})) == "-1" + bore + "421");
+  CHECK(text(hole_of(25), 413, preset_block(-5)) == "-1" + bore + "412");
   // Nothing within DIST: the stud stands above the ball, or the hole is larger.
-  CHECK(text(hole_of(25), 422, stud_block()) == bore + "421");
+  CHECK(text(hole_of(25), 422, stud_block()) == "1014" + bore + "421");
   CHECK(text(hole_of(80), 421, hole_block()) ==
-        "; the setup has a bore of 80 mm here: Q262 is 25 mm");
+        "1014; the setup has a bore of 80 mm here: Q262 is 25 mm");
   CHECK(text(stud_of(60), 422, stud_block()) ==
-        "; the setup has a boss of 60 mm here: Q262 is 25 mm");
-  CHECK(text(hole_of(25), 421, with(hole_block(), {{261, 5.0}})) == "");
-  CHECK(text(hole_of(25, {50, 50}), 422, with(stud_block(), {{261, -5.0}})) == "");
+        "-1; the setup has a boss of 60 mm here: Q262 is 25 mm");
+  CHECK(text(hole_of(25), 421, with(hole_block(), {{261, 5.0}})) == "1014");
+  CHECK(text(hole_of(25, {50, 50}), 422, with(stud_block(), {{261, -5.0}})) == "-1");
 }
 
 TEST_CASE("421 touches a hole too small for the clearance from its centre") {

@@ -327,6 +327,12 @@ TEST_CASE("errors of 451") {
   CHECK(bench.run(451, with(both_axes(3), {{407, 14.8}})) == 1072);
   CHECK(bench.host.files.empty());
   CHECK_FALSE(bench.host.q.contains(141));
+  setup.machine.presets.front().locked = true;
+  SphereBench locked(setup);
+  for (const double when : {0.0, 1.0, 2.0, 3.0}) {
+    CAPTURE(when);
+    CHECK(locked.run(451, with(both_axes(3), {{431, when}})) == (when == 0 ? 0 : 1085));
+  }
   setup.machine.axes[0]->max = 75;
   SphereBench narrow(setup);
   CHECK(narrow.run(451, both_axes(3)) == 1101);
