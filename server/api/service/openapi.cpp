@@ -1,6 +1,8 @@
 #include "api/resources.hpp"
 
+#include "base/gzip.hpp"
 #include "base/json/json_writer.hpp"
+#include "service/jobs.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -36,12 +38,7 @@ std::string schema_of(const http::ParameterType& type) {
 }
 
 std::string_view place(http::ParameterPlace place) {
-  switch (place) {
-    case http::ParameterPlace::Path: return "path";
-    case http::ParameterPlace::Query: return "query";
-    case http::ParameterPlace::Header: return "header";
-  }
-  return "";
+  return word_of(place, {"path", "query", "header"});
 }
 
 /// The example of a body: of JSON that of its schema, of others a text.
@@ -101,10 +98,11 @@ std::set<int> refusals_of(const http::Route& route) {
   if (!route.parameters.empty() || takes_body) found.insert(400);
   if (route.access != "public") found.insert({401, 403});
   if (!route.response_types.empty()) found.insert(406);
-  if (takes_body) found.insert({411, 413});
-  if (takes_body) found.insert(415);
+  if (takes_body) found.insert({411, 413, 415});
   if (has_json_body(route) || takes_length(route)) found.insert(422);
-  if (route.pattern.starts_with("/v1/") || route.pattern == "/readyz") found.insert(503);
+  if (route.pattern.starts_with("/v1/") || route.pattern == "/readyz" ||
+      route.pattern == "/openapi.json")
+    found.insert(503);
   return found;
 }
 
@@ -304,9 +302,8 @@ Schemas make_schemas(const Schemas& of_plant) {
   for (AddSchemas* const add :
        {add_limits_schemas, add_statistics_schemas, add_table_schemas, add_measurement_schemas,
         add_note_schemas, add_plan_schemas, add_parts_schemas, add_file_schemas, add_setup_schemas,
-        add_run_schemas, add_cycle_schemas}) {
+        add_run_schemas, add_cycle_schemas})
     add(schemas);
-  }
   schemas.insert(schemas.end(), of_plant.begin(), of_plant.end());
   add_service_schemas(schemas);
   add_examples(schemas);
@@ -336,22 +333,24 @@ void add_openapi_route(Routes& add, const Schemas& of_plant) {
       {.summary = "This description",
        .tag = "service",
        .outcomes = {{.meaning = "OpenAPI 3.1", .schema = "Description"}}});
-  // Written for the first that asks: else it takes an eighth of each start.
+  // Written for the first that asks, by a worker: it takes an eighth of a start.
   struct Description {
     std::vector<http::Route> routes;
     Schemas of_plant;
     std::once_flag once{};
     std::shared_ptr<const http::PreparedResponse> document{};
   };
-  const auto made = std::make_shared<Description>(add.all, of_plant);
-  add.all.back().handler = [made](const Request&) -> Result<Response> {
+  const auto answer = [made = std::make_shared<Description>(add.all, of_plant)]() {
     std::call_once(made->once, [&made] {
-      made->document =
-          http::prepare({200, "application/json", openapi_json(made->routes, made->of_plant)});
+      const auto text = openapi_json(made->routes, made->of_plant);
+      made->document = http::prepare({200, "application/json", text}, gzip(text));
       made->routes = {};
       made->of_plant = {};
     });
-    return Response(made->document);
+    return Result<Response>(Response(made->document));
+  };
+  add.all.back().handler = [answer, &jobs = add.services.jobs](const Request&, Responder to) {
+    jobs.orders.run(answer, answer_by(share(std::move(to))));
   };
 }
 
