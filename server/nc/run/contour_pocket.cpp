@@ -94,15 +94,15 @@ bool is_clear(const std::vector<SlContour>& contours, double reach, Vec2 point) 
   return is_in_material(contours, point);
 }
 
+/// @param limits memory that all lanes use
 NcResult<void> add_lanes(const std::vector<SlContour>& contours, double reach, double y,
-                         bool is_back, RunBudget& budget, std::vector<Lane>& lanes) {
+                         std::vector<double>& limits, RunBudget& budget, std::vector<Lane>& lanes) {
   TRY(budget.check());
-  std::vector<double> limits;
+  limits.clear();
   for (const SlContour& contour : contours) {
     for (const Curve& curve : contour.curves) add_limits(curve, reach, y, limits);
   }
   std::ranges::sort(limits);
-  const std::size_t before = lanes.size();
   bool goes_on = false;
   for (std::size_t i = 1; i < limits.size(); ++i) {
     TRY(budget.check());
@@ -114,10 +114,6 @@ NcResult<void> add_lanes(const std::vector<SlContour>& contours, double reach, d
     if (is_free && !goes_on) lanes.push_back({{from, y}, {to, y}});
     goes_on = is_free;
   }
-  if (!is_back) return {};
-  const auto added = std::span(lanes).subspan(before);
-  std::ranges::reverse(added);
-  for (Lane& lane : added) std::swap(lane.from, lane.to);
   return {};
 }
 
@@ -140,6 +136,7 @@ NcResult<std::vector<Lane>> clearing_lanes(const std::vector<SlContour>& contour
   low += reach;
   high -= reach;
   std::vector<Lane> lanes;
+  std::vector<double> limits;
   if (low > high) return lanes;
   // Whole steps, at most as long as the spacing; the first and last are next to the walls.
   const double steps = std::max(1.0, std::ceil((high - low) / spacing - tolerance::kNanometre));
@@ -147,8 +144,13 @@ NcResult<std::vector<Lane>> clearing_lanes(const std::vector<SlContour>& contour
   for (double step = 0; step <= steps; ++step) {
     const std::size_t before = lanes.size();
     const double y = low + (high - low) * step / steps;
-    TRY(add_lanes(contours, reach, y, is_back, budget, lanes));
-    if (lanes.size() > before) is_back = !is_back;
+    TRY(add_lanes(contours, reach, y, limits, budget, lanes));
+    const auto added = std::span(lanes).subspan(before);
+    if (is_back) {
+      std::ranges::reverse(added);
+      for (Lane& lane : added) std::swap(lane.from, lane.to);
+    }
+    if (!added.empty()) is_back = !is_back;
   }
   return lanes;
 }
