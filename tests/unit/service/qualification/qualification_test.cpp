@@ -74,7 +74,7 @@ TEST_CASE("this program computes what was published, each figure within its limi
   const Qualification& made = sound();
   CHECK(failed(made.checks).empty());
   CHECK(made.passed);
-  CHECK(made.tables_revision.starts_with("1-"));
+  CHECK(made.tables_revision == "1-f0a85b3a");
   std::set<std::string> ids;
   for (const Check& check : made.checks) {
     CAPTURE(check.id);
