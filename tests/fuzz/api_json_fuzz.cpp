@@ -2,16 +2,17 @@
 // one name and is no deeper than the reader says.
 
 #include "base/json/json_value.hpp"
+#include "target.hpp"
 
 using namespace fitgauge;
 
 namespace {
 
 void check(const JsonValue& value, int depth) {
-  if (depth > 32) std::abort();
+  require(depth <= 32);
   std::set<std::string> names;
   for (const auto& [name, member] : value.members) {
-    if (!names.insert(name).second || value.find(name) != &member) std::abort();
+    require(names.insert(name).second && value.find(name) == &member);
     check(member, depth + 1);
   }
   for (const JsonValue& item : value.items) check(item, depth + 1);
@@ -19,12 +20,8 @@ void check(const JsonValue& value, int depth) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto value = parse_json({reinterpret_cast<const char*>(data), size});
-  if (value) {
-    check(*value, 0);
-  } else if (value.error().message.empty()) {
-    std::abort();
-  }
-  return 0;
+void take(std::string_view bytes) {
+  const auto value = parse_json(bytes);
+  if (value) check(*value, 0);
+  require(value.has_value() || !value.error().message.empty());
 }

@@ -2,6 +2,7 @@
 // was read can be sent again as it is kept.
 
 #include "api/runs/run_codec.hpp"
+#include "target.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;
@@ -20,13 +21,10 @@ Result<app::RunOrder> decode(std::string_view text) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto order = decode({reinterpret_cast<const char*>(data), size});
-  if (!order) {
-    if (order.error().message.empty()) std::abort();
-    return 0;
-  }
+void take(std::string_view bytes) {
+  const auto order = decode(bytes);
+  require(order.has_value() || !order.error().message.empty());
+  if (!order) return;
   const auto again = decode(order->request);
-  if (!again || again->request != order->request) std::abort();
-  return 0;
+  require(again && again->request == order->request);
 }

@@ -5,6 +5,7 @@
 #include "http/request.hpp"
 #include "record/measurement_batch.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
+#include "target.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;
@@ -25,28 +26,26 @@ std::string_view media_type(char letter) {
 void check(const app::Measurement& row) {
   app::Measurement again = row;
   judge(again);
-  if (again.result.verdict != row.result.verdict) std::abort();
-  if (row.lower_limit() > row.upper_limit()) std::abort();
+  require(again.result.verdict == row.result.verdict);
+  require(row.lower_limit() <= row.upper_limit());
 }
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size == 0) return 0;
-  std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
+void take(std::string_view bytes) {
+  if (bytes.empty()) return;
+  std::string text(bytes.substr(1));
   const std::size_t length = text.size();
   text.append(http::Request::kBodyPadding, '\0');
   const std::string_view body = std::string_view(text).substr(0, length);
-  const std::string_view type = media_type(static_cast<char>(data[0]));
+  const std::string_view type = media_type(bytes[0]);
 
   MeasurementBatch whole;
   BatchContext context{.tables = tables(), .received_at = {1'000'000'000}};
   const auto read = decode_measurements(body, type, context, whole);
   if (!read) {
-    if (read.error().message.empty()) std::abort();
-    for (const Error& detail : read.error().details) {
-      if (detail.message.empty()) std::abort();
-    }
+    require(!read.error().message.empty());
+    for (const Error& detail : read.error().details) require(!detail.message.empty());
   } else {
     for (const app::Measurement& row : whole.rows) check(row);
   }
@@ -55,8 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::size_t taken = 0;
   context.take = [&](const std::vector<app::Measurement>& rows) { taken += rows.size(); };
   const auto streamed = decode_measurements(body, type, context, pieces);
-  if (pieces.wants_whole) return 0;
-  if (streamed.has_value() != read.has_value()) std::abort();
-  if (read && taken + pieces.rows.size() != whole.rows.size()) std::abort();
-  return 0;
+  if (pieces.wants_whole) return;
+  require(streamed.has_value() == read.has_value());
+  require(!read || taken + pieces.rows.size() == whole.rows.size());
 }

@@ -3,15 +3,12 @@
 
 #include "formats/dfq/dfq_writer.hpp"
 #include "formats/dfq/measurement_csv.hpp"
+#include "target.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::aqdef;
 
 namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 /// Every value that is a length, with the fields of its own, as a measurement of 25 H7.
 std::string rewritten(std::string_view text) {
@@ -51,8 +48,7 @@ std::string rewritten(std::string_view text) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view text(reinterpret_cast<const char*>(data), size);
+void take(std::string_view text) {
   static const auto zone = sheet::TimeZone::load("Europe/Berlin");
   MeasurementOptions options;
   options.constants = {{"feature", "hole"}};
@@ -69,5 +65,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')) == lines.size());
   const std::string once = rewritten(text);
   require(rewritten(once) == once);
-  return 0;
 }

@@ -3,14 +3,11 @@
 
 #include "plant/lsv2/link/messages.hpp"
 #include "plant/lsv2/link/payload.hpp"
+#include "target.hpp"
 
 using namespace fitgauge::control_link;
 
 namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 std::vector<Telegram> read_all(std::string_view bytes, std::size_t step) {
   TelegramReader reader;
@@ -38,9 +35,8 @@ void check_as(const Telegram& telegram) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  const std::vector<Telegram> telegrams = read_all(bytes, size + 1);
+void take(std::string_view bytes) {
+  const std::vector<Telegram> telegrams = read_all(bytes, bytes.size() + 1);
   require(telegrams == read_all(bytes, 1));
   for (const Telegram& telegram : telegrams) {
     require(framed(telegram).size() < kSmallestBuffer);
@@ -51,5 +47,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
              DirectoryEntry, Memory, MachineParameter, DataValue, Axes, State, ProgramStack,
              Overrides, Fault, SpindleTool>(telegram);
   }
-  return 0;
 }

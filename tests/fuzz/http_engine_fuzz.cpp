@@ -6,15 +6,12 @@
 
 #include "http/engine/connection.hpp"
 #include "http/engine/io_thread.hpp"
+#include "target.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::http;
 
 namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 /// A client that is gone when it has sent everything, and takes answers in small pieces.
 class MemoryConnection final : public Connection {
@@ -131,12 +128,12 @@ std::vector<Route> routes() {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void take(std::string_view bytes) {
   static ServerShared shared({}, RouteTable(routes()), {});
-  if (size == 0) return 0;
+  if (bytes.empty()) return;
   // The first byte draws the sizes of the pieces.
-  const std::size_t most = std::size_t{1} << (data[0] % 16U);
-  std::string_view unsent(reinterpret_cast<const char*>(data) + 1, size - 1);
+  const std::size_t most = std::size_t{1} << (static_cast<unsigned char>(bytes[0]) % 16U);
+  std::string_view unsent = bytes.substr(1);
 
   IoThread thread(shared, 1);
   const auto connection =
@@ -148,5 +145,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string& sent = connection->sent();
   require(sent.empty() || (sent.starts_with("HTTP/1.1 ") && std::isdigit(sent[9]) != 0));
   connection->close();
-  return 0;
 }

@@ -2,6 +2,7 @@
 // its block, and after a failure it stands at the end.
 
 #include "nc/klartext/lexer.hpp"
+#include "target.hpp"
 
 using namespace fitgauge::klartext;
 
@@ -24,18 +25,17 @@ void read_one(Lexer& in, unsigned what) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::size_t half = size / 2;
-  const std::string source(reinterpret_cast<const char*>(data) + half, size - half);
+void take(std::string_view bytes) {
+  const std::size_t half = bytes.size() / 2;
+  const std::string source(bytes.substr(half));
   Lexer in(source);
   in.open(0, source.size());
   const char* last = in.at();
-  for (std::size_t i = 0; i < half; ++i) {
-    read_one(in, data[i]);
-    if (in.at() < last || in.at() > in.end()) std::abort();
-    if (in.failure() && in.at() != in.end()) std::abort();
+  for (const char what : bytes.substr(0, half)) {
+    read_one(in, static_cast<unsigned char>(what));
+    require(in.at() >= last && in.at() <= in.end());
+    require(!in.failure() || in.at() == in.end());
     last = in.at();
   }
-  if (free_text(source).ends_with('~') || comment_text(source).ends_with('~')) std::abort();
-  return 0;
+  require(!free_text(source).ends_with('~') && !comment_text(source).ends_with('~'));
 }

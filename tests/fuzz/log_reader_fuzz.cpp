@@ -2,19 +2,11 @@
 // a measured text, limits come in pairs around it in order, and the text of a log reads as itself.
 
 #include "formats/measuring_log/measuring_log.hpp"
+#include "target.hpp"
 
 using namespace fitgauge::log_reader;
 
-namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
-
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+void take(std::string_view bytes) {
   for (const auto& read : {&read_logs, &read_text_logs, &read_html_logs}) {
     const Reading reading = read(bytes);
     for (const MeasuringLog& log : reading.logs) {
@@ -30,11 +22,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(again.logs.size() == 1 && again.logs[0].values.size() == log.values.size());
   }
   const std::size_t end = bytes.find('\0');
-  if (end == std::string_view::npos) return 0;
+  if (end == std::string_view::npos) return;
   const auto pattern = Pattern::parse(bytes.substr(0, end));
-  if (!pattern) return 0;
+  if (!pattern) return;
   for (const PatternResult& result : pattern->read(bytes.substr(end + 1)).results) {
     require(result.fields.contains("measured_mm") && !result.text.empty());
   }
-  return 0;
 }

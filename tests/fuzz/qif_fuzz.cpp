@@ -2,15 +2,12 @@
 // What the writer makes of as many values is read with these values.
 
 #include "../support/qif_text.hpp"
+#include "target.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::qif;
 
 namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 struct Said {
   QifText text{};
@@ -72,8 +69,7 @@ void write_and_read(std::string_view bytes) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view text(reinterpret_cast<const char*>(data), size);
+void take(std::string_view text) {
   const Said whole = said(read_text(text), read_text(text));
   require(static_cast<std::size_t>(std::count(whole.text.csv.begin(), whole.text.csv.end(),
                                               '\n')) == whole.text.lines.size());
@@ -81,5 +77,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(whole.text.csv == pieces.text.csv && whole.text.lines == pieces.text.lines);
   require(whole.error.empty() == pieces.error.empty());
   write_and_read(text);
-  return 0;
 }

@@ -9,6 +9,7 @@
 #include "base/json/json_value.hpp"
 #include "service/runs/active_run.hpp"
 #include "service/runs/stored_run.hpp"
+#include "target.hpp"
 
 using namespace fitgauge;
 
@@ -33,8 +34,8 @@ void expect(bool holds, const char* what, const std::string& text) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  std::string text(reinterpret_cast<const char*>(data), size);
+void take(std::string_view bytes) {
+  std::string text(bytes);
   const std::size_t line = std::min(text.find('\n'), text.size());
   const machine::Setup setup = setup_of(std::string_view(text).substr(0, line));
   text.erase(0, line + 1);
@@ -74,5 +75,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string answer = format.report(report);
   expect(parse_json(answer).has_value(), "the report is no JSON", answer);
   expect(parse_json(format.event(report)).has_value(), "the event is no JSON", answer);
-  return 0;
 }

@@ -2,24 +2,23 @@
 // after it was written and read again.
 
 #include "tables/tabfile/tab_table.hpp"
+#include "target.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::tabfile;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void take(std::string_view bytes) {
   fitgauge::Allowance unlimited;
-  const auto table = read_tab_file({reinterpret_cast<const char*>(data), size}, unlimited);
+  const auto table = read_tab_file(bytes, unlimited);
   if (!table) {
     const Error& error = table.error();
-    if (error.code != ErrorCode::TableFileMalformed || error.where.empty()) std::abort();
-    return 0;
+    return require(error.code == ErrorCode::TableFileMalformed && !error.where.empty());
   }
   for (std::size_t row = 0; row < table->row_count(); ++row) {
     for (std::size_t column = 0; column < table->columns().size(); ++column) {
-      if (table->cell(row, column).find('\n') != std::string_view::npos) std::abort();
+      require(table->cell(row, column).find('\n') == std::string_view::npos);
     }
   }
   const auto again = read_tab_file(write_tab(*table), unlimited);
-  if (!again || !(*again == *table)) std::abort();
-  return 0;
+  require(again && *again == *table);
 }
