@@ -1,31 +1,13 @@
 #include "cli/measure_command.hpp"
 
 #include <doctest/doctest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "cli/local_files.hpp"
+#include "support/files.hpp"
 
 using namespace fitgauge::cli;
 
 namespace {
-
-struct TestFolder {
-  TestFolder()
-      : path(std::filesystem::temp_directory_path() /
-             ("fitgauge-cli-" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(path);
-  }
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-  ~TestFolder() { std::filesystem::remove_all(path); }
-
-  std::string file(const char* name) const { return (path / name).string(); }
-
-  std::filesystem::path path;
-};
 
 MeasureState example() {
   return {.server = "http://127.0.0.1:8286",
@@ -67,8 +49,8 @@ TEST_CASE("a key names the session and all that was read") {
 }
 
 TEST_CASE("the journal gives the last state") {
-  const TestFolder folder;
-  const std::string path = folder.file("new/of/input.state");
+  const fitgauge::TemporaryFolder folder;
+  const std::string path = folder.path() / "new/of/input.state";
   MeasureState state = example();
   {
     auto journal = MeasureJournal::open(path);
@@ -85,8 +67,8 @@ TEST_CASE("the journal gives the last state") {
 }
 
 TEST_CASE("a line that was cut off by a power cut is as if it had not been begun") {
-  const TestFolder folder;
-  const std::string path = folder.file("torn");
+  const fitgauge::TemporaryFolder folder;
+  const std::string path = folder.path() / "torn";
   MeasureState state = example();
   REQUIRE(MeasureJournal::open(path)->append(state).has_value());
   std::ofstream(path, std::ios::app) << "{\"server\":\"http://127.0";
@@ -98,19 +80,17 @@ TEST_CASE("a line that was cut off by a power cut is as if it had not been begun
 }
 
 TEST_CASE("two runs do not have one journal at the same time") {
-  const TestFolder folder;
-  const auto first = MeasureJournal::open(folder.file("x"));
+  const fitgauge::TemporaryFolder folder;
+  const auto first = MeasureJournal::open(folder.path() / "x");
   REQUIRE(first.has_value());
-  const auto second = MeasureJournal::open(folder.file("x"));
-  REQUIRE(!second);
-  CHECK(second.error().exit_code == ExitCode::LocalFile);
+  CHECK(MeasureJournal::open(folder.path() / "x").error().exit_code == ExitCode::LocalFile);
 }
 
 TEST_CASE("another file is not taken for a journal") {
-  const TestFolder folder;
-  std::ofstream(folder.file("notes")) << "milk\n";
-  CHECK(MeasureJournal::open(folder.file("notes")).error().exit_code == ExitCode::LocalFile);
-  CHECK(*read_file(folder.file("notes")) == "milk\n");
+  const fitgauge::TemporaryFolder folder;
+  std::ofstream(folder.path() / "notes") << "milk\n";
+  CHECK(MeasureJournal::open(folder.path() / "notes").error().exit_code == ExitCode::LocalFile);
+  CHECK(*read_file(folder.path() / "notes") == "milk\n");
 }
 
 TEST_CASE("an input has one journal for each service") {

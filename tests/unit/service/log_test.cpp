@@ -66,7 +66,7 @@ TEST_CASE("what is stored last before the end is in the checkpoint of the folder
 }
 
 TEST_CASE("a folder that knows changes which the database lacks begins a branch") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const SystemClock clock;
   const auto open = [&] {
     ApplicationOptions options;

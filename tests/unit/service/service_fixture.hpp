@@ -2,32 +2,12 @@
 
 #include <doctest/doctest.h>
 
-#include <unistd.h>
-#include <filesystem>
 #include <future>
 
 #include "service/application.hpp"
+#include "support/files.hpp"
 
 namespace fitgauge::app {
-
-/// A folder of its own for a test, removed in the end.
-class Folder {
- public:
-  Folder() {
-    static std::atomic<int> made{0};
-    path_ = std::filesystem::temp_directory_path() /
-            ("fitgauge-app-" + std::to_string(getpid()) + "-" + std::to_string(++made));
-    std::filesystem::create_directories(path_);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { std::filesystem::remove_all(path_); }
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Waits for what a function with a `done` gives.
 template <class T, class Call>
@@ -91,20 +71,18 @@ class Service {
   const std::filesystem::path& folder() const { return folder_.path(); }
 
   void upload(std::string_view path, std::string_view bytes) {
-    const auto written = wait_for<bool>([&](auto done) {
+    wait_for<bool>([&](auto done) {
       app_->files().write(interpreter::ControlPath::parse(path).value(), bytes, "test", {},
                           std::move(done));
-    });
-    REQUIRE(written.has_value());
+    }).value();
   }
   /// Stores that many bores of 25 mm.
   void record(std::int64_t count) {
-    const auto answer = wait_for<Answer>([&](auto done) {
+    wait_for<Answer>([&](auto done) {
       app_->measurements().record(
           bores(0, count), std::nullopt, [] { return std::make_unique<Nothing>(); },
           std::move(done));
-    });
-    REQUIRE(answer.has_value());
+    }).value();
   }
 
   /// Uploads a program of these lines, `TNC:\main.h`.
@@ -139,17 +117,12 @@ class Service {
   RunReport report_of(ActiveRun& run) {
     std::promise<Result<FinishedRun>> promise;
     run.on_end([&promise](const Result<FinishedRun>& end) { promise.set_value(end); });
-    const auto end = promise.get_future().get();
-    REQUIRE(end.has_value());
-    CHECK(end->report == std::to_string(run.id()));
+    const auto end = promise.get_future().get().value();
+    CHECK(end.report == std::to_string(run.id()));
     const std::lock_guard lock(mutex_);
     return reports_.at(run.id());
   }
-  RunReport run(RunOrder order) {
-    const auto started = start(std::move(order));
-    REQUIRE(started.has_value());
-    return report_of(**started);
-  }
+  RunReport run(RunOrder order) { return report_of(*start(std::move(order)).value()); }
 
   /// From now on no report can be made.
   void break_reports() { broken_ = true; }
@@ -162,7 +135,7 @@ class Service {
     return std::to_string(report.id);
   }
 
-  Folder folder_;
+  TemporaryFolder folder_;
   SystemClock clock_;
   std::atomic<bool> broken_{false};
   std::mutex mutex_;

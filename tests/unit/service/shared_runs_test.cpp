@@ -20,7 +20,7 @@ TEST_CASE("a look for the runs of other daemons that fails is not the last one")
   report_bugs_to([](std::string_view place, std::string_view what) {
     bugs_of_looks += std::string(place) + ": " + std::string(what) + "\n";
   });
-  const Folder folder;
+  const TemporaryFolder folder;
   const SystemClock clock;
   const auto database = store::sqlite::open_database({.directory = folder.path()}, clock).value();
   int looks = 0;

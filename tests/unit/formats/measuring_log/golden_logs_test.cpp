@@ -1,8 +1,7 @@
 #include <doctest/doctest.h>
 
-#include <fstream>
-
 #include "formats/measuring_log/measuring_log.hpp"
+#include "support/files.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::log_reader;
@@ -10,11 +9,6 @@ using namespace fitgauge::log_reader;
 namespace {
 
 constexpr std::string_view kFolder = "tests/golden/nc";
-
-std::string content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// What stands between two marks, the marks included, one behind the other.
 std::string between(std::string_view all, std::string_view begin, std::string_view end) {
@@ -35,7 +29,7 @@ TEST_CASE("every log of the measuring cycles' golden cases is read") {
   std::map<int, std::size_t> logs;
   for (const int cycle : kCycles) {
     const std::string folder = fmt::format("{}/cycle-{}", kFolder, cycle);
-    const std::string expected = content(folder + "/expected.txt");
+    const std::string expected = content_of(folder + "/expected.txt");
     const std::string text =
         between(expected, "\n****** Measuring log", "End of measuring log ******");
     const std::string page = between(expected, "<!DOCTYPE html>", "</section>\n\n");

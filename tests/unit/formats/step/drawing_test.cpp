@@ -2,22 +2,18 @@
 
 #include <doctest/doctest.h>
 
-#include <fstream>
+#include "support/files.hpp"
+#include "unit/tables/iso286/tables_fixture.hpp"
 
 namespace fitgauge::step {
 namespace {
 
-const iso286::ToleranceTables& tables() {
-  static const auto made = iso286::ToleranceTables::make(iso286::compiled_in_tables(), {"1"});
-  return *made;
-}
+using iso286::standard_tables;
 
 /// The corpus of the fuzz target has a drawing with sizes in every form.
 const std::string& housing() {
-  static const std::string text = [] {
-    std::ifstream in(FITGAUGE_SOURCE_DIR "/tests/fuzz/corpus/step/housing.stp");
-    return std::string(std::istreambuf_iterator<char>(in), {});
-  }();
+  static const std::string text =
+      content_of(FITGAUGE_SOURCE_DIR "/tests/fuzz/corpus/step/housing.stp");
   return text;
 }
 
@@ -36,7 +32,7 @@ std::string with_data(std::string_view data) {
 }
 
 std::string error_of(std::string_view text, std::size_t most = Part21::kMostInstances) {
-  const auto read = read_drawing(text, tables(), most);
+  const auto read = read_drawing(text, standard_tables(), most);
   if (read) return {};
   CHECK(read.error().code == ErrorCode::DrawingMalformed);
   return read.error().message;
@@ -54,18 +50,17 @@ std::string limits_of(const DrawnSize& size) {
 }  // namespace
 
 TEST_CASE("sizes of a drawing are read in every form that writers have") {
-  const auto drawing = read_drawing(housing(), tables());
-  REQUIRE(drawing.has_value());
-  CHECK(drawing->part == "4711-A");
-  CHECK(drawing->digest.size() == 64);
-  REQUIRE(drawing->sizes.size() == 5);
-  const auto& sizes = drawing->sizes;
+  const auto drawing = read_drawing(housing(), standard_tables()).value();
+  CHECK(drawing.part == "4711-A");
+  CHECK(drawing.digest.size() == 64);
+  REQUIRE(drawing.sizes.size() == 5);
+  const auto& sizes = drawing.sizes;
   CHECK(sizes[0].name == "Bore Ø A");
   CHECK(limits_of(sizes[0]) == "25 H7 diameter hole");
   CHECK(sizes[0].count == 2);
-  const auto with_plus = read_drawing(replaced(housing(), "(40.,", "(+40.,"), tables());
-  REQUIRE(with_plus.has_value());
-  CHECK(with_plus->sizes[0].count == 2);
+  const auto with_plus =
+      read_drawing(replaced(housing(), "(40.,", "(+40.,"), standard_tables()).value();
+  CHECK(with_plus.sizes[0].count == 2);
   CHECK(sizes[0].modifiers == std::vector<std::string>{"envelope requirement"});
   CHECK(limits_of(sizes[1]) == "25 g6 diameter shaft");
   CHECK(limits_of(sizes[2]) == "8 0 -36 width hole");
@@ -77,9 +72,8 @@ TEST_CASE("sizes of a drawing are read in every form that writers have") {
 
 TEST_CASE("sizes are read as their callouts show them, in the forms of other writers") {
   const auto read = [](std::string_view entity, const std::string& text) {
-    const auto drawing = read_drawing(text, tables());
-    REQUIRE(drawing.has_value());
-    for (const DrawnSize& size : drawing->sizes) {
+    const auto drawing = read_drawing(text, standard_tables()).value();
+    for (const DrawnSize& size : drawing.sizes) {
       if (size.entity == entity)
         return fmt::format("{} {}X {}", limits_of(size), size.count, fmt::join(size.remarks, ", "));
     }
@@ -126,11 +120,10 @@ TEST_CASE("faces of an open shell say nothing of the side") {
                                 "#97=ADVANCED_FACE('',(),#21,.T.);#98=ADVANCED_FACE('',(),#23,.T.);"
                                 "#99=OPEN_SHELL('',(#97,#98));#113=TOLERANCE_VALUE(#139,#184)");
     for (const auto& [what, by] : changes) text = replaced(std::move(text), what, by);
-    const auto drawing = read_drawing(text, tables());
-    REQUIRE(drawing.has_value());
-    if (drawing->sizes[0].entity == "#100")
-      return fmt::format("{} {}X", limits_of(drawing->sizes[0]), drawing->sizes[0].count);
-    return drawing->not_read[0].why;
+    const auto drawing = read_drawing(text, standard_tables()).value();
+    if (drawing.sizes[0].entity == "#100")
+      return fmt::format("{} {}X", limits_of(drawing.sizes[0]), drawing.sizes[0].count);
+    return drawing.not_read[0].why;
   };
   const std::pair<std::string_view, std::string_view> first{"#102,#4,#20)", "#102,#4,#97)"};
   const std::pair<std::string_view, std::string_view> second{"#103,#4,#22)", "#103,#4,#98)"};
@@ -155,15 +148,14 @@ TEST_CASE("faces of an open shell say nothing of the side") {
 }
 
 TEST_CASE("what is not gauged is listed with its name and why") {
-  const auto drawing = read_drawing(housing(), tables());
-  REQUIRE(drawing.has_value());
+  const auto drawing = read_drawing(housing(), standard_tables()).value();
   const auto why = [&](std::string_view entity) {
-    for (const NotRead& other : drawing->not_read) {
+    for (const NotRead& other : drawing.not_read) {
       if (other.entity == entity) return other.name + ": " + other.why;
     }
     return std::string();
   };
-  CHECK(drawing->not_read.size() == 8);
+  CHECK(drawing.not_read.size() == 8);
   CHECK(why("#180").find("lacks a sign") != std::string::npos);
   CHECK(why("#185").find("theoretical") != std::string::npos);
   CHECK(why("#191").find("25 H7 is +21 0 µm of a hole, and the limits of the file are +25 0 µm") !=
@@ -182,9 +174,8 @@ TEST_CASE("signs and orders of deviations are read or named, never guessed") {
                  fmt::format("#139=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE({})", lower));
     text = replaced(std::move(text), "#140=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(-0.036)",
                     fmt::format("#140=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE({})", upper));
-    const auto drawing = read_drawing(text, tables());
-    REQUIRE(drawing.has_value());
-    for (const DrawnSize& size : drawing->sizes) {
+    const auto drawing = read_drawing(text, standard_tables()).value();
+    for (const DrawnSize& size : drawing.sizes) {
       if (size.entity == "#130") return limits_of(size) + (size.remarks.empty() ? "" : " !");
     }
     return std::string("not read");
@@ -200,13 +191,12 @@ TEST_CASE("signs and orders of deviations are read or named, never guessed") {
 
 TEST_CASE("a size that is not above 0 and limits in the wrong order are named") {
   const auto read = [](std::string_view entity, std::string_view what, std::string_view by) {
-    const auto drawing = read_drawing(replaced(housing(), what, by), tables());
-    REQUIRE(drawing.has_value());
-    for (const DrawnSize& size : drawing->sizes) {
+    const auto drawing = read_drawing(replaced(housing(), what, by), standard_tables()).value();
+    for (const DrawnSize& size : drawing.sizes) {
       if (size.entity == entity)
         return fmt::format("{} {}", limits_of(size), fmt::join(size.remarks, ", "));
     }
-    for (const NotRead& other : drawing->not_read) {
+    for (const NotRead& other : drawing.not_read) {
       if (other.entity == entity) return other.why;
     }
     return std::string();
@@ -222,7 +212,8 @@ TEST_CASE("a size that is not above 0 and limits in the wrong order are named") 
         "both limits are 39.9 mm: the file lacks a tolerance");
   std::string below = replaced(housing(), "LENGTH_MEASURE(40.),", "LENGTH_MEASURE(-40.),");
   below = replaced(std::move(below), "LENGTH_MEASURE(40.1)", "LENGTH_MEASURE(-39.9)");
-  CHECK(read_drawing(replaced(below, "LENGTH_MEASURE(39.9)", "LENGTH_MEASURE(-40.1)"), tables())
+  CHECK(read_drawing(replaced(below, "LENGTH_MEASURE(39.9)", "LENGTH_MEASURE(-40.1)"),
+                     standard_tables())
             ->sizes[4]
             .nominal == Length::millimetres(-40));
 }
@@ -233,11 +224,10 @@ TEST_CASE("names are bounded, and unique however long they are") {
   text = replaced(std::move(text), "#190=ANGULAR",
                   "#98=DRAUGHTING_MODEL_ITEM_ASSOCIATION('','',#120,$,#114);#99=DRAUGHTING_MODEL_"
                   "ITEM_ASSOCIATION('','',#180,$,#114);#190=ANGULAR");
-  const auto drawing = read_drawing(text, tables());
-  REQUIRE(drawing.has_value());
-  CHECK(drawing->sizes[0].name == fmt::format("{:x>180}", ""));
-  CHECK(drawing->sizes[1].name == fmt::format("{:x>180} (2)", ""));
-  CHECK(drawing->not_read[0].name == fmt::format("{:x>1000}", ""));
+  const auto drawing = read_drawing(text, standard_tables()).value();
+  CHECK(drawing.sizes[0].name == fmt::format("{:x>180}", ""));
+  CHECK(drawing.sizes[1].name == fmt::format("{:x>180} (2)", ""));
+  CHECK(drawing.not_read[0].name == fmt::format("{:x>1000}", ""));
 }
 
 TEST_CASE("a file that is cut anywhere is an error with its line") {
@@ -284,9 +274,8 @@ TEST_CASE("aspects that refer to each other in a ring end") {
   const std::string ring = replaced(housing(), "#104=SHAPE_ASPECT_RELATIONSHIP('',$,#101,#102);",
                                     "#104=SHAPE_ASPECT_RELATIONSHIP('',$,#101,#102);#98=SHAPE_"
                                     "ASPECT_RELATIONSHIP('',$,#102,#101);");
-  const auto drawing = read_drawing(ring, tables());
-  REQUIRE(drawing.has_value());
-  CHECK(drawing->sizes.size() == 5);
+  const auto drawing = read_drawing(ring, standard_tables()).value();
+  CHECK(drawing.sizes.size() == 5);
 }
 
 TEST_CASE("a million instances are read, one more than the bound is an error") {
@@ -315,7 +304,7 @@ TEST_CASE("edition 3 and texts in every coding are read") {
   CHECK(error_of(text).empty());
   const auto name = [](std::string_view written) {
     const auto drawing =
-        read_drawing(replaced(housing(), R"(Bore \X2\00D8\X0\ A)", written), tables());
+        read_drawing(replaced(housing(), R"(Bore \X2\00D8\X0\ A)", written), standard_tables());
     REQUIRE(drawing.has_value());
     return drawing->sizes[0].name;
   };
@@ -328,11 +317,10 @@ TEST_CASE("edition 3 and texts in every coding are read") {
 }
 
 TEST_CASE("a plan keeps what people gave its characteristics and says what a new drawing changed") {
-  const auto drawing = read_drawing(housing(), tables());
+  const auto drawing = read_drawing(housing(), standard_tables());
   REQUIRE(drawing.has_value());
-  const auto first = plan_of(*drawing, "4711-A", nullptr);
-  REQUIRE(first.has_value());
-  CHECK(first->compared.added.size() == 5);
+  const auto first = plan_of(*drawing, "4711-A", nullptr).value();
+  CHECK(first.compared.added.size() == 5);
   const auto before =
       parse_json(R"({"part":"4711-A","name":"Housing","drawing":{"digest":"aa"},"characteristics":[
     {"name":"Bore Ø A","nominal_mm":25,"tolerance_class":"H8","gauge":"G-07","entity":"#9"},
@@ -340,19 +328,17 @@ TEST_CASE("a plan keeps what people gave its characteristics and says what a new
     {"name":"slot of old","nominal_mm":8,"upper_um":1,"lower_um":0,"feature":"hole","entity":"#10"},
     {"name":"by hand","designation":"30 k6"}]})");
   REQUIRE(before.has_value());
-  const auto next = plan_of(*drawing, "4711-A", &*before);
-  REQUIRE(next.has_value());
-  CHECK(next->compared.digest == "aa");
-  CHECK(next->compared.added.size() == 3);
-  CHECK(next->compared.gone == std::vector<std::string>{"slot of old"});
-  REQUIRE(next->compared.changed.size() == 1);
-  CHECK(next->compared.changed[0].before == "nominal_mm 25, tolerance_class H8");
-  CHECK(next->compared.changed[0].after == "designation 25 H7 (E)");
-  const auto plan = parse_json(next->text);
-  REQUIRE(plan.has_value());
-  CHECK(plan->text_of("name") == "Housing");
-  CHECK(plan->member("drawing").text_of("digest") == drawing->digest);
-  const auto& all = plan->member("characteristics").items;
+  const auto next = plan_of(*drawing, "4711-A", &*before).value();
+  CHECK(next.compared.digest == "aa");
+  CHECK(next.compared.added.size() == 3);
+  CHECK(next.compared.gone == std::vector<std::string>{"slot of old"});
+  REQUIRE(next.compared.changed.size() == 1);
+  CHECK(next.compared.changed[0].before == "nominal_mm 25, tolerance_class H8");
+  CHECK(next.compared.changed[0].after == "designation 25 H7 (E)");
+  const auto plan = parse_json(next.text).value();
+  CHECK(plan.text_of("name") == "Housing");
+  CHECK(plan.member("drawing").text_of("digest") == drawing->digest);
+  const auto& all = plan.member("characteristics").items;
   REQUIRE(all.size() == 6);
   CHECK(all[0].text_of("gauge") == "G-07");
   CHECK(all[0].text_of("entity") == "#100");

@@ -4,13 +4,10 @@
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/read.hpp>
-#include <filesystem>
 #include <future>
 
 #include "base/thread.hpp"
-#include "service/application.hpp"
-
-#include <unistd.h>
+#include "unit/service/service_fixture.hpp"
 
 namespace fitgauge::mtconnect {
 namespace {
@@ -24,15 +21,9 @@ TEST_CASE("what fails while an agent is taken in is not the last agent that is t
   report_bugs_to([](std::string_view place, std::string_view what) {
     bugs += std::string(place) + ": " + std::string(what) + "\n";
   });
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("fitgauge-shdr-" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
   {
     const SystemClock clock;
-    app::ApplicationOptions settings;
-    settings.directory = folder;
-    settings.synchronous = store::Synchronous::Off;
-    const auto app = app::Application::open(settings, clock).value();
+    app::Service app;
     std::promise<void> refused;
     int refusals = 0;
     AdapterOptions options;
@@ -55,7 +46,6 @@ TEST_CASE("what fails while an agent is taken in is not the last agent that is t
     }
     CHECK(refused.get_future().wait_for(std::chrono::minutes(1)) == std::future_status::ready);
   }
-  std::filesystem::remove_all(folder);
   CHECK(bugs == "an agent that connects: a bug of the hook\n");
 }
 
