@@ -2,7 +2,7 @@
 
 #include "record/measurement_batch.hpp"
 #include "record/record.hpp"
-#include "tables/iso286/tolerance_tables.hpp"
+#include "unit/tables/iso286/tables_fixture.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;
@@ -11,14 +11,12 @@ namespace {
 
 /// The record of an object, or the first complaint: `POINTER CODE`.
 std::string judged(std::string body) {
-  static const auto kTables =
-      iso286::ToleranceTables::make(iso286::compiled_in_tables(), {"test"}).value();
   const std::size_t size = body.size();
   body.append(64, '\0');
   MeasurementBatch batch;
-  const auto decoded =
-      decode_measurements(std::string_view(body).substr(0, size), "application/json",
-                          {.tables = kTables, .received_at = {1'000'000'000}}, batch);
+  const auto decoded = decode_measurements(
+      std::string_view(body).substr(0, size), "application/json",
+      {.tables = iso286::standard_tables(), .received_at = {1'000'000'000}}, batch);
   if (!decoded) {
     const Error error = decoded.error();
     const Error& first = error.details.front();

@@ -3,24 +3,18 @@
 #include <doctest/doctest.h>
 
 #include "metrology/statistics/fit_analysis.hpp"
-#include "tables/iso286/tolerance_tables.hpp"
+#include "unit/tables/iso286/tables_fixture.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::metrology;
 using doctest::Approx;
+using iso286::size_mm;
+using iso286::standard_tables;
 
 namespace {
 
-const iso286::ToleranceTables& tables() {
-  static const auto made =
-      iso286::ToleranceTables::make(iso286::compiled_in_tables(), {"test"}).value();
-  return made;
-}
-
-iso286::NominalSize size(const char* mm) { return iso286::NominalSize::parse_mm(mm).value(); }
-
 Result<LimitGauge> gauge(const char* mm, const char* name) {
-  return limit_gauge(tables().limits_of_size(size(mm), name).value(), name);
+  return limit_gauge(standard_tables().limits_of_size(size_mm(mm), name).value(), name);
 }
 
 std::string text(const LimitGauge& g) {
@@ -29,8 +23,9 @@ std::string text(const LimitGauge& g) {
 }
 
 iso286::Fit fit(const char* mm, const char* hole, const char* shaft) {
-  return tables()
-      .fit(size(mm), tables().find_class(hole).value(), tables().find_class(shaft).value())
+  return standard_tables()
+      .fit(size_mm(mm), standard_tables().find_class(hole).value(),
+           standard_tables().find_class(shaft).value())
       .value();
 }
 
@@ -77,7 +72,7 @@ TEST_CASE("the tables of gauges hold what they must") {
         if (i > 0) CHECK(here >= value(steps[i - 1], name, grade));
       }
       const std::string name = "H" + std::to_string(grade);
-      const auto limits = tables().limits_of_size(nominal, name);
+      const auto limits = standard_tables().limits_of_size(nominal, name);
       if (!limits) continue;
       const LimitGauge made = limit_gauge(*limits, name).value();
       CHECK(made.go.lower > limits->lower_limit());
@@ -99,7 +94,7 @@ TEST_CASE("the probability of interference, worst case beside it") {
 
 TEST_CASE("fits are found within their bounds, the preferred first") {
   const ClearanceBounds bounds{Length::micrometres(5), Length::micrometres(45)};
-  const auto found = find_fits(tables(), size("25"), bounds);
+  const auto found = find_fits(standard_tables(), size_mm("25"), bounds);
   REQUIRE(found.size() > 10);
   CHECK(found[0].preferred);
   bool ordinary = false;
@@ -109,8 +104,8 @@ TEST_CASE("fits are found within their bounds, the preferred first") {
     CHECK(each.most <= bounds.most);
     CHECK_FALSE((each.preferred && ordinary));
     ordinary = ordinary || !each.preferred;
-    has_h7_g6 = has_h7_g6 ||
-                (tables().class_name(each.hole) == "H7" && tables().class_name(each.shaft) == "g6");
+    has_h7_g6 = has_h7_g6 || (standard_tables().class_name(each.hole) == "H7" &&
+                              standard_tables().class_name(each.shaft) == "g6");
   }
   CHECK(has_h7_g6);  // 7 to 41
   CHECK(is_preferred("H7", "g6"));
@@ -120,7 +115,9 @@ TEST_CASE("fits are found within their bounds, the preferred first") {
   CHECK_FALSE(is_preferred("H7", "g7"));
   CHECK_FALSE(is_preferred("G8", "h6"));
   CHECK_FALSE(is_preferred("H7", "6"));
-  CHECK(find_fits(tables(), size("25"), {Length::micrometres(1), Length::micrometres(1)}).empty());
+  CHECK(
+      find_fits(standard_tables(), size_mm("25"), {Length::micrometres(1), Length::micrometres(1)})
+          .empty());
 }
 
 TEST_CASE("a press fit by Lame") {

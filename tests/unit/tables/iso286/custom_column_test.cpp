@@ -13,12 +13,6 @@ CustomRow row(int over, int up_to, int upper_um, int lower_um) {
           {Length::micrometres(upper_um), Length::micrometres(lower_um)}};
 }
 
-ToleranceTables tables_with(std::vector<CustomColumn> columns) {
-  TableData data = compiled_in_tables();
-  data.custom_columns = std::move(columns);
-  return ToleranceTables::make(data, {"shop"}).value();
-}
-
 }  // namespace
 
 TEST_CASE("a custom column named like a class of the standard answers from then on") {
@@ -63,7 +57,6 @@ TEST_CASE("a class the standard never defines may be a custom column") {
 TEST_CASE("columns that are no columns are refused with their place") {
   const auto where = [](Feature feature, std::string name, std::vector<CustomRow> rows) {
     const auto checked = check_custom_column({feature, std::move(name), std::move(rows)});
-    REQUIRE(checked.has_error());
     CHECK(checked.error().code == ErrorCode::TableRowsInvalid);
     REQUIRE_FALSE(checked.error().details.empty());
     return checked.error().details.front().where;

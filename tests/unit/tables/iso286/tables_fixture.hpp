@@ -12,6 +12,13 @@ inline const ToleranceTables& standard_tables() {
   return kTables;
 }
 
+/// With columns of a shop.
+inline ToleranceTables tables_with(std::vector<CustomColumn> columns) {
+  TableData data = compiled_in_tables();
+  data.custom_columns = std::move(columns);
+  return ToleranceTables::make(data, {"shop"}).value();
+}
+
 inline NominalSize size_mm(std::string_view text) { return NominalSize::parse_mm(text).value(); }
 
 /// `+21/0` in µm, or the id of the error.

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "tables/tabfile/tab_table.hpp"
+#include "unit/tables/iso286/tables_fixture.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::tabfile;
@@ -15,12 +16,6 @@ namespace {
 TabTable read_again(std::string_view text) {
   Allowance unlimited;
   return read_tab_file(text, unlimited).value();
-}
-
-ToleranceTables projected_tables_with(std::vector<CustomColumn> columns) {
-  TableData data = compiled_in_tables();
-  data.custom_columns = std::move(columns);
-  return ToleranceTables::make(data, {"shop"}).value();
 }
 
 CustomColumn column(Feature feature, std::string name, int over, int up_to, int upper_nm) {
@@ -53,7 +48,7 @@ std::string cell_by_offset(const std::string& file, const std::string& row,
 }  // namespace
 
 TEST_CASE("rows 2i and 2i + 1 hold the end of range i and its deviations") {
-  const TabTable holes = project(projected_tables_with({}), Feature::Hole);
+  const TabTable holes = project(tables_with({}), Feature::Hole);
   CHECK(holes.row_count() == 82);
   CHECK(holes.columns()[0].name == "NR");
   CHECK(holes.columns()[1].name == "BEREICH");
@@ -68,13 +63,13 @@ TEST_CASE("rows 2i and 2i + 1 hold the end of range i and its deviations") {
   CHECK(holes.number(13, "K9").error().code == ErrorCode::TableCellEmpty);
   CHECK(holes.number(0, "J9").error().code == ErrorCode::TableColumnMissing);
   CHECK(holes.number(82, "H7").error().code == ErrorCode::TableRowMissing);
-  const TabTable shafts = project(projected_tables_with({}), Feature::Shaft);
+  const TabTable shafts = project(tables_with({}), Feature::Shaft);
   CHECK(shafts.columns()[2].name == "d9");
   CHECK(shafts.columns()[24].name == "s7");
 }
 
 TEST_CASE("every cell reads back exactly, by our reader and by the offsets of the column line") {
-  const ToleranceTables tables = projected_tables_with({});
+  const ToleranceTables tables = tables_with({});
   for (const Feature feature : {Feature::Hole, Feature::Shaft}) {
     const TabTable projected = project(tables, feature);
     const std::string file = write_tab(projected);
@@ -108,10 +103,9 @@ TEST_CASE("every cell reads back exactly, by our reader and by the offsets of th
 }
 
 TEST_CASE("custom columns take the place of their class, or the last one") {
-  const ToleranceTables tables =
-      projected_tables_with({column(Feature::Hole, "H7", 18, 30, 15'000),
-                             column(Feature::Hole, "Press_1", 0, 3150, 1'001),
-                             column(Feature::Hole, "Odd", 20, 40, 9'000)});
+  const ToleranceTables tables = tables_with({column(Feature::Hole, "H7", 18, 30, 15'000),
+                                              column(Feature::Hole, "Press_1", 0, 3150, 1'001),
+                                              column(Feature::Hole, "Odd", 20, 40, 9'000)});
   const TabTable holes = project(tables, Feature::Hole);
   CHECK(holes.columns()[9].name == "H7");
   CHECK(holes.columns().back().name == "Press_1");
