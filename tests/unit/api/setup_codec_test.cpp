@@ -158,20 +158,20 @@ TEST_CASE("an order is read with its setup, by name or in place") {
   const auto order = read(R"({"program": "TNC:\\a.h", "setup": "mill", "on_stop": "end",
                               "block_skip": true, "language": "dutch",
                               "limits": {"blocks": 5, "seconds": 0.5},
-                              "parameters": {"Q1": 25, "QL3": -1e2, "QS1": "H7"}})");
-  REQUIRE(order.has_value());
-  CHECK(order->program.text() == "TNC:\\a.h");
-  CHECK(order->setup.seed == 12);
-  CHECK(order->setup.machine.tools.size() == 2);
-  CHECK(order->options.on_stop == interpreter::OnStop::End);
-  CHECK(order->options.block_skip);
-  CHECK(order->options.language == klartext::MaskLanguage::Dutch);
-  CHECK(order->options.limits.blocks == 5);
-  CHECK(order->options.limits.time.count() == 0.5);
-  CHECK(order->options.parameters.size() == 3);
+                              "parameters": {"Q1": 25, "QL3": -1e2, "QS1": "H7"}})")
+                         .value();
+  CHECK(order.program.text() == "TNC:\\a.h");
+  CHECK(order.setup.seed == 12);
+  CHECK(order.setup.machine.tools.size() == 2);
+  CHECK(order.options.on_stop == interpreter::OnStop::End);
+  CHECK(order.options.block_skip);
+  CHECK(order.options.language == klartext::MaskLanguage::Dutch);
+  CHECK(order.options.limits.blocks == 5);
+  CHECK(order.options.limits.time.count() == 0.5);
+  CHECK(order.options.parameters.size() == 3);
   // What is kept can be sent again, and says what was meant by the name.
-  CHECK(order->request.find(R"("setup":{"seed":12})") != std::string::npos);
-  CHECK(read(order->request)->setup.seed == 12);
+  CHECK(order.request.find(R"("setup":{"seed":12})") != std::string::npos);
+  CHECK(read(order.request)->setup.seed == 12);
   CHECK(read(R"({"program": "TNC:\\a.h"})")->setup.seed == 1);
 
   const auto refused =

@@ -42,10 +42,9 @@ TEST_CASE("records of both separators, line ends and a byte-order mark are read"
 }
 
 TEST_CASE("the text of a cell stays when the next record is read") {
-  auto reader = CsvReader::open("a,b\n1,\"the \"\"first\"\"\"\n2,\"a \"\"second\"\"\"\n");
-  REQUIRE(reader.has_value());
-  const std::vector<CsvCell> first = **reader->next();
-  CHECK(joined(**reader->next()) == "[2][a \"second\"]");
+  auto reader = CsvReader::open("a,b\n1,\"the \"\"first\"\"\"\n2,\"a \"\"second\"\"\"\n").value();
+  const std::vector<CsvCell> first = **reader.next();
+  CHECK(joined(**reader.next()) == "[2][a \"second\"]");
   CHECK(joined(first) == "[1][the \"first\"]");
 }
 

@@ -19,12 +19,11 @@ TEST_CASE("a file is checked as what its extension says: program, mask or table"
        {std::pair{"TNC:\\p.h", 2U}, std::pair{"TNC:\\m.a", 1U}, std::pair{"TNC:\\t.tab", 3U}}) {
     const std::string_view name = expected.first;
     CAPTURE(name);
-    const auto found = findings(name);
-    REQUIRE(found.has_value());
-    REQUIRE_FALSE(found->empty());
-    CHECK(found->front().severity == klartext::Severity::Error);
-    CHECK(found->front().program == name);
-    CHECK(found->front().range.begin.line == expected.second);
+    const auto found = findings(name).value();
+    REQUIRE_FALSE(found.empty());
+    CHECK(found.front().severity == klartext::Severity::Error);
+    CHECK(found.front().program == name);
+    CHECK(found.front().range.begin.line == expected.second);
   }
   CHECK(findings("TNC:\\none.h").error().code == ErrorCode::ProgramUnknown);
 }
@@ -51,9 +50,8 @@ TEST_CASE("a path is given with or without its drive, and with either separator"
   for (const char* text :
        {"TNC:\\b\\out.txt", "TNC:/b/out.txt", "tnc:\\b/out.txt", "b/out.txt", "/b/out.txt"}) {
     CAPTURE(text);
-    const auto parsed = parse_file_path(text);
-    REQUIRE(parsed.has_value());
-    CHECK(parsed->text() == "TNC:\\b\\out.txt");
+    const auto parsed = parse_file_path(text).value();
+    CHECK(parsed.text() == "TNC:\\b\\out.txt");
   }
   CHECK(parse_file_path("PLC:/b/out.txt").has_error());
 }

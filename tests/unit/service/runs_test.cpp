@@ -24,12 +24,12 @@ TEST_CASE("a run leaves its report and its trace") {
   CHECK(report.result.status == RunStatus::Completed);
   CHECK(report.finished_at.nanoseconds >= report.created_at.nanoseconds);
 
-  const auto stored =
-      wait_for<StoredRun>([&](auto done) { service->runs().find(report.id, std::move(done)); });
-  REQUIRE(stored.has_value());
-  CHECK(stored->status == RunState::Completed);
-  CHECK(stored->program == "TNC:\\main.h");
-  CHECK(stored->request == "{}");
+  const StoredRun stored = wait_for<StoredRun>([&](auto done) {
+                             service->runs().find(report.id, std::move(done));
+                           }).value();
+  CHECK(stored.status == RunState::Completed);
+  CHECK(stored.program == "TNC:\\main.h");
+  CHECK(stored.request == "{}");
   auto trace =
       wait_for<TraceReader>([&](auto done) { service->runs().trace(report.id, std::move(done)); });
   CHECK(trace->next().value() == "a move, the end");

@@ -94,38 +94,37 @@ TEST_CASE("order, ends of lines, indices, types, lengths, counts and mandatory f
       last = Level::Value;
       continue;
     }
-    const auto field = parse_field_line(line);
-    REQUIRE(field.has_value());
-    const FieldInfo* const info = field_info(field->number);
+    const auto field = parse_field_line(line).value();
+    const FieldInfo* const info = field_info(field.number);
     REQUIRE(info != nullptr);
-    fields.insert(field->number);
-    CHECK(!field->text.empty());
-    if (info->longest > 0) CHECK(field->text.size() <= static_cast<std::size_t>(info->longest));
+    fields.insert(field.number);
+    CHECK(!field.text.empty());
+    if (info->longest > 0) CHECK(field.text.size() <= static_cast<std::size_t>(info->longest));
     if (info->type == FieldType::Integer) {
-      CHECK(field->text.find_first_not_of("0123456789") == std::string_view::npos);
+      CHECK(field.text.find_first_not_of("0123456789") == std::string_view::npos);
     }
     if (info->type == FieldType::Number) {
-      CHECK(parse_length(field->text, LengthUnit::Millimetre).has_value());
-      CHECK(field->text.find_first_not_of("-.0123456789") == std::string_view::npos);
+      CHECK(parse_length(field.text, LengthUnit::Millimetre).has_value());
+      CHECK(field.text.find_first_not_of("-.0123456789") == std::string_view::npos);
     }
-    switch (level_of(field->number)) {
+    switch (level_of(field.number)) {
       case Level::File: CHECK(count == 0); break;
       case Level::Part:
         CHECK((last == Level::File || last == Level::Part || last == Level::Characteristic));
-        CHECK((field->index == last_part || field->index == last_part + 1));
-        last_part = field->index;
+        CHECK((field.index == last_part || field.index == last_part + 1));
+        last_part = field.index;
         break;
       case Level::Characteristic:
         CHECK((last == Level::Part || last == Level::Characteristic));
-        CHECK((field->index == last_characteristic || field->index == last_characteristic + 1));
-        last_characteristic = field->index;
+        CHECK((field.index == last_characteristic || field.index == last_characteristic + 1));
+        last_characteristic = field.index;
         break;
       case Level::Catalogue:
         CHECK((last == Level::Characteristic || last == Level::Catalogue));
         break;
       default: CHECK(last == Level::Value);
     }
-    last = level_of(field->number);
+    last = level_of(field.number);
     ++count;
   }
   CHECK(last_characteristic == 3);
@@ -165,7 +164,6 @@ TEST_CASE("a text that does not fit its field is told, and nothing is added") {
     Measurement value = bore(1, 0);
     value.*one.field = one.text;
     const auto added = writer.add(value);
-    REQUIRE(!added.has_value());
     INFO(added.error().message);
     CHECK(added.error().message.find(one.said) == 0);
     CHECK(writer.is_empty());

@@ -36,9 +36,8 @@ TEST_CASE("a pattern reads every result of an FN 16 file") {
 }
 
 TEST_CASE("a result that lacks a line is told, and the next one is read") {
-  const auto pattern = Pattern::parse(kBore);
-  REQUIRE(pattern.has_value());
-  const PatternReading reading = pattern->read("PART A 1:2\nPART B 1:2\nDIAMETER 25 MM\n");
+  const auto pattern = Pattern::parse(kBore).value();
+  const PatternReading reading = pattern.read("PART A 1:2\nPART B 1:2\nDIAMETER 25 MM\n");
   REQUIRE(reading.unread.size() == 1);
   CHECK(reading.unread[0].line == 1);
   REQUIRE(reading.results.size() == 1);

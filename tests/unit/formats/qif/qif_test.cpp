@@ -52,17 +52,16 @@ TEST_CASE("what is written is read with the same values") {
   second.feature = iso286::Feature::Shaft;
   second.deviations.lower = -app::kNoLimit;
   REQUIRE(writer.add(second).has_value());
-  const auto read = read_qif(writer.text(), {});
-  REQUIRE(read.has_value());
-  CHECK(read->csv.find("25.0131") != std::string::npos);
-  CHECK(read->csv.find("24.991") != std::string::npos);
-  CHECK(read->csv.find("H7") != std::string::npos);
-  CHECK(read->csv.find("\"P<1>&\"\"\"") != std::string::npos);
-  CHECK(read->csv.find("M3") != std::string::npos);
-  CHECK(read->csv.find("shaft") != std::string::npos);
+  const auto read = read_qif(writer.text(), {}).value();
+  CHECK(read.csv.find("25.0131") != std::string::npos);
+  CHECK(read.csv.find("24.991") != std::string::npos);
+  CHECK(read.csv.find("H7") != std::string::npos);
+  CHECK(read.csv.find("\"P<1>&\"\"\"") != std::string::npos);
+  CHECK(read.csv.find("M3") != std::string::npos);
+  CHECK(read.csv.find("shaft") != std::string::npos);
   // The second comes behind a row of three lines, each of which has the line of the document.
-  CHECK(read->lines.size() >= 2);
-  CHECK(read->lines.front() < read->lines.back());
+  CHECK(read.lines.size() >= 2);
+  CHECK(read.lines.front() < read.lines.back());
 }
 
 TEST_CASE("the operator of a size and the envelope are elements of the definition") {
@@ -80,10 +79,9 @@ TEST_CASE("the operator of a size and the envelope are elements of the definitio
                   "<DeterminationModifier>GG</DeterminationModifier></DimensionModifiers>"
                   "<Tolerance>") != std::string::npos);
   CHECK(text.find(R"(<AttributeStr name="size_operator" value="SD"/>)") != std::string::npos);
-  const auto read = read_qif(text, {});
-  REQUIRE(read.has_value());
-  CHECK(read->csv.find(";GG;required;") != std::string::npos);
-  CHECK(read->csv.find(";SD;;") != std::string::npos);
+  const auto read = read_qif(text, {}).value();
+  CHECK(read.csv.find(";GG;required;") != std::string::npos);
+  CHECK(read.csv.find(";SD;;") != std::string::npos);
   // Of a distance, of which nothing says that it is a size, they are passed over.
   std::string distance = text;
   for (const auto& [from, to] : {std::pair("Diameter"s, "Length"s),
@@ -93,10 +91,9 @@ TEST_CASE("the operator of a size and the envelope are elements of the definitio
       distance.replace(at, from.size(), to);
     }
   }
-  const auto other = read_qif(distance, {});
-  REQUIRE(other.has_value());
-  CHECK(other->csv.find("distance") != std::string::npos);
-  CHECK(other->csv.find(";GG;") == std::string::npos);
+  const auto other = read_qif(distance, {}).value();
+  CHECK(other.csv.find("distance") != std::string::npos);
+  CHECK(other.csv.find(";GG;") == std::string::npos);
 }
 
 TEST_CASE("the same values are the same bytes, and a text that XML cannot hold is refused") {
@@ -168,9 +165,8 @@ TEST_CASE("an input that fails is told with its words") {
     left -= into.size();
     return failing(into);
   };
-  const auto opened = QifRows::open(read, read_text(text), {});
-  REQUIRE_FALSE(opened.has_value());
-  CHECK(opened.error().message.find("the disk is gone") != std::string::npos);
+  CHECK(QifRows::open(read, read_text(text), {}).error().message.find("the disk is gone") !=
+        std::string::npos);
 }
 
 TEST_CASE("rows, definitions and elements are bounded") {

@@ -443,9 +443,7 @@ TEST_CASE("terms of second order are left out beyond a bound of quantities") {
 TEST_CASE("what a simulation comes to is a number") {
   Budget large = budget_of("a*10^307", {{"a", 1, 1}});
   REQUIRE(linearise(large).has_value());
-  const auto found = simulate(large, {.trials = 1000});
-  REQUIRE_FALSE(found.has_value());
-  CHECK(found.error().code == ErrorCode::NumberOutOfRange);
+  CHECK(simulate(large, {.trials = 1000}).error().code == ErrorCode::NumberOutOfRange);
 }
 
 TEST_CASE("terms of second order end with the allowance of the thread") {

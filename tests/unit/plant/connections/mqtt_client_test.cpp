@@ -32,10 +32,9 @@ TEST_CASE("who is told of an MQTT connection and throws ends neither it nor the 
       throw std::logic_error("a bug of the hook");
     });
     told.get_future().wait();
-    const auto why = client.wait_connected({});
-    REQUIRE(why.has_value());
-    CAPTURE(*why);
-    CHECK(why->find("cannot be reached") != std::string::npos);
+    const auto why = client.wait_connected({}).value();
+    CAPTURE(why);
+    CHECK(why.find("cannot be reached") != std::string::npos);
   }
   CHECK(bugs_of_mqtt == "a listener of an MQTT connection: a bug of the hook\n");
 }

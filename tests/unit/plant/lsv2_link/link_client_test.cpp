@@ -30,10 +30,9 @@ struct Control {
   LinkClientOptions served() {
     LinkServerOptions options;
     options.host = "127.0.0.1";
-    auto started = LinkServer::start(
-        std::move(options), {.converse = [this] { return std::make_unique<Scripted>(answers); }});
-    REQUIRE(started.has_value());
-    server = *std::move(started);
+    server = LinkServer::start(std::move(options),
+                               {.converse = [this] { return std::make_unique<Scripted>(answers); }})
+                 .value();
     return {.address = {"127.0.0.1", server->port()}};
   }
 };
@@ -70,13 +69,12 @@ TEST_CASE("the largest buffer that a control offers is agreed, and a refusal kee
     parameters.largest_buffer = 4096;
     control.answers = {{ReadParameters::kName, encode(parameters)}};
   }
-  auto client = LinkClient::connect(control.served());
-  REQUIRE(client.has_value());
-  REQUIRE(client->agree_buffer().has_value());
+  auto client = LinkClient::connect(control.served()).value();
+  REQUIRE(client.agree_buffer().has_value());
   const bool agrees = control.answers.size() == 3;
-  CHECK(client->buffer() == (agrees ? 2048 : 256));
+  CHECK(client.buffer() == (agrees ? 2048 : 256));
   // What is too long for a telegram is not sent.
-  const auto found = client->file_information("TNC:\\" + std::string(260, 'x'));
+  const auto found = client.file_information("TNC:\\" + std::string(260, 'x'));
   CHECK(
       found.error().is_refusal(agrees ? ControlError::UnknownTelegram : ControlError::BadFileName));
 }
@@ -88,12 +86,11 @@ TEST_CASE("a transfer ends at the caller's limit, and a false answer breaks the 
                      {ChangeDirectory::kName, encode(Accepted{})},
                      {ListDirectory::kName, encode(EndOfData{})},
                      {ReadFileInformation::kName, encode(Accepted{})}};
-  auto client = LinkClient::connect(control.served());
-  REQUIRE(client.has_value());
-  CHECK(client->list("TNC:\\", 1)->empty());
-  const auto endless = client->download("TNC:\\x", Transfer::Binary, 10'000);
+  auto client = LinkClient::connect(control.served()).value();
+  CHECK(client.list("TNC:\\", 1)->empty());
+  const auto endless = client.download("TNC:\\x", Transfer::Binary, 10'000);
   CHECK(endless.error().kind == LinkFailure::Kind::Unfit);
-  const auto strange = client->file_information("TNC:\\x");
+  const auto strange = client.file_information("TNC:\\x");
   CHECK(strange.error().kind == LinkFailure::Kind::Broken);
 }
 
@@ -103,8 +100,7 @@ TEST_CASE("a stop ends the wait for a silent control") {
   LinkClientOptions options = control.served();
   std::stop_source stop;
   options.stop = stop.get_token();
-  auto client = LinkClient::connect(options);
-  REQUIRE(client.has_value());
+  auto client = LinkClient::connect(options).value();
   stop.request_stop();
-  CHECK(client->login("INSPECT").error().kind == LinkFailure::Kind::Stopped);
+  CHECK(client.login("INSPECT").error().kind == LinkFailure::Kind::Stopped);
 }

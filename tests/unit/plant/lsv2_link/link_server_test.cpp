@@ -27,15 +27,14 @@ class Echo final : public Conversation {
 struct Served {
   explicit Served(LinkServerOptions options) {
     options.host = "127.0.0.1";
-    auto started =
+    server =
         LinkServer::start(std::move(options), {.converse = [] { return std::make_unique<Echo>(); },
                                                .sent_away =
                                                    [this](std::string_view, std::string_view why) {
                                                      const std::lock_guard lock(mutex);
                                                      reasons.emplace_back(why);
-                                                   }});
-    REQUIRE(started.has_value());
-    server = *std::move(started);
+                                                   }})
+            .value();
   }
 
   Descriptor connect() const {
@@ -128,6 +127,5 @@ TEST_CASE("a port in use is an error that names it") {
   Served served({});
   const auto second = LinkServer::start({.host = "127.0.0.1", .port = served.server->port()},
                                         {.converse = [] { return std::make_unique<Echo>(); }});
-  REQUIRE_FALSE(second.has_value());
   CHECK(second.error().code == ErrorCode::ListenFailed);
 }

@@ -59,11 +59,10 @@ TEST_CASE("sizes outside the standard and finer than a nanometre are named as su
 TEST_CASE("fits name the hole first") {
   for (const char* text : {"25H7/g6", "25 H7/g6", "25H7 / g6", "Ø25H7/g6"}) {
     CAPTURE(std::string(text));
-    const auto fit = parse_fit_designation(text);
-    REQUIRE(fit.has_value());
-    CHECK(fit->nominal_size.length() == Length::millimetres(25));
-    CHECK(fit->hole_class == "H7");
-    CHECK(fit->shaft_class == "g6");
+    const auto fit = parse_fit_designation(text).value();
+    CHECK(fit.nominal_size.length() == Length::millimetres(25));
+    CHECK(fit.hole_class == "H7");
+    CHECK(fit.shaft_class == "g6");
   }
   CHECK(parse_fit_designation("25H7", "g6")->shaft_class == "g6");
   CHECK(parse_fit_designation("25 H7 ", "g6 ")->shaft_class == "g6");
