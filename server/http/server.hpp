@@ -36,7 +36,7 @@ struct TlsOptions {
 Result<void> check_tls(const TlsOptions& options);
 
 struct ServerOptions {
-  std::vector<ListenAddress> listen;
+  std::vector<ListenAddress> listen{};
   unsigned io_threads = 1;
   /// Connections above this number are answered with 503 and closed.
   std::size_t max_connections = 1024;

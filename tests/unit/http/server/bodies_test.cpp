@@ -29,10 +29,6 @@ std::string chunked(std::string_view target, std::string_view chunks,
       target, fields, chunks);
 }
 
-std::string chunk(std::string_view bytes) {
-  return fmt::format("{:X}\r\n{}\r\n", bytes.size(), bytes);
-}
-
 }  // namespace
 
 TEST_CASE("a body arrives whole, however it is cut") {
@@ -42,23 +38,23 @@ TEST_CASE("a body arrives whole, however it is cut") {
     for (std::size_t i = 0; i < size; ++i) body[i] = static_cast<char>('a' + i % 26);
     Client client = server.connect();
     const std::string request = post("/json", "application/json", body);
-    CHECK(client.ask(request)->body == body);  // at once
+    CHECK(client.ask(request).body == body);  // at once
     const std::size_t cut = request.size() - size / 2;
     client.send(request.substr(0, cut));  // in two parts, with a request behind it
     client.send(request.substr(cut) + get("/none"));
-    CHECK(client.read()->body == body);
-    CHECK(client.read()->body == "fixed");
+    CHECK(client.read().body == body);
+    CHECK(client.read().body == "fixed");
   }
 }
 
 TEST_CASE("a chunked body arrives whole, with extensions and trailers skipped") {
   TestServer server(body_routes());
   Client client = server.connect();
-  CHECK(client.ask(chunked("/json", "5\r\nhello\r\n6;a=b;c=\"d\"\r\n world\r\n0\r\n\r\n"))->body ==
+  CHECK(client.ask(chunked("/json", "5\r\nhello\r\n6;a=b;c=\"d\"\r\n world\r\n0\r\n\r\n")).body ==
         "hello world");
-  CHECK(client.ask(chunked("/json", "5\r\nhello\r\n0\r\nX-Sum: 1\r\nHost: other\r\n\r\n"))->body ==
+  CHECK(client.ask(chunked("/json", "5\r\nhello\r\n0\r\nX-Sum: 1\r\nHost: other\r\n\r\n")).body ==
         "hello");
-  CHECK(client.ask(chunked("/json", "0\r\n\r\n"))->body == "fixed");
+  CHECK(client.ask(chunked("/json", "0\r\n\r\n")).body == "fixed");
   std::string expected;
   std::string chunks;
   for (int i = 0; i < 3000; ++i) {
@@ -66,13 +62,13 @@ TEST_CASE("a chunked body arrives whole, with extensions and trailers skipped") 
     expected += piece;
     chunks += chunk(piece);
   }
-  CHECK(client.ask(chunked("/json", chunks + "0\r\n\r\n"))->body == expected);
+  CHECK(client.ask(chunked("/json", chunks + "0\r\n\r\n")).body == expected);
   const std::string big(kLimit, 'y');
-  CHECK(client.ask(chunked("/json", chunk(big) + "0\r\n\r\n") + get("/none"))->body == big);
-  CHECK(client.read()->body == "fixed");
+  CHECK(client.ask(chunked("/json", chunk(big) + "0\r\n\r\n") + get("/none")).body == big);
+  CHECK(client.read().body == "fixed");
   const std::string slow = chunked("/json", chunk("drip") + "0\r\n\r\n");
   for (const char c : slow) client.send(std::string_view(&c, 1));
-  CHECK(client.read()->body == "drip");
+  CHECK(client.read().body == "drip");
 }
 
 TEST_CASE("a required body without a length is 411") {
@@ -110,10 +106,10 @@ TEST_CASE("a media type that the route does not take is 415") {
 TEST_CASE("the next request works after a refusal whose body was there already") {
   TestServer server(body_routes());
   Client client = server.connect();
-  CHECK(client.ask(post("/json", "text/plain", "some text") + get("/none"))->status == 415);
-  CHECK(client.read()->status == 200);
-  CHECK(client.ask(post("/nowhere", "text/plain", "some text"))->status == 404);
-  CHECK(client.ask(get("/none"))->status == 200);
+  CHECK(client.ask(post("/json", "text/plain", "some text") + get("/none")).status == 415);
+  CHECK(client.read().status == 200);
+  CHECK(client.ask(post("/nowhere", "text/plain", "some text")).status == 404);
+  CHECK(client.ask(get("/none")).status == 200);
 }
 
 TEST_CASE("a body over the limit is 413 at the header when its length says so") {
@@ -123,10 +119,9 @@ TEST_CASE("a body over the limit is 413 at the header when its length says so") 
       "POST /json HTTP/1.1\r\nHost: h\r\nContent-Type: application/json\r\nContent-Length: "
       "100001\r\n\r\n");
   const auto answer = client.read();
-  REQUIRE(answer);
-  CHECK(answer->status == 413);
-  CHECK(answer->body.starts_with("request.body_too_large"));
-  CHECK(answer->field("Connection") == "close");
+  CHECK(answer.status == 413);
+  CHECK(answer.body.starts_with("request.body_too_large"));
+  CHECK(answer.field("Connection") == "close");
 }
 
 TEST_CASE("a refused body that is still being sent does not cost the client its answer") {
@@ -134,8 +129,7 @@ TEST_CASE("a refused body that is still being sent does not cost the client its 
   Client client = server.connect();
   client.send(post("/json", "application/json", std::string(900'000, 'x')));
   const auto answer = client.read();
-  REQUIRE(answer);
-  CHECK(answer->status == 413);
+  CHECK(answer.status == 413);
 }
 
 TEST_CASE("a chunked body over the limit is 413") {
@@ -149,8 +143,7 @@ TEST_CASE("a chunk that announces more than the limit is 413 before its bytes co
   const auto status_of = [&](std::string_view chunks) {
     Client client = server.connect();
     client.send(chunked("/json", chunks));
-    const auto answer = client.read();
-    return answer ? answer->status : 0;
+    return client.read().status;
   };
   // The limit is 100,000: 186a0.
   for (const char* size : {"186a1", "000186A1", "7fffffff", "80000000", "ffffffff", "100000000",
@@ -165,7 +158,7 @@ TEST_CASE("a chunk that announces more than the limit is 413 before its bytes co
   CHECK(status_of(fmt::format("186a0\r\n{}\r\n0\r\n\r\n", std::string(kLimit, 'x'))) == 200);
   Client client = server.connect();
   client.send("GET /none HTTP/1.1\r\nHost: h\r\nTransfer-Encoding: chunked\r\n\r\n186a1\r\n");
-  CHECK(client.read()->status == 413);
+  CHECK(client.read().status == 413);
 }
 
 TEST_CASE("a body that the route has no use for is read and thrown away") {
@@ -173,9 +166,9 @@ TEST_CASE("a body that the route has no use for is read and thrown away") {
   Client client = server.connect();
   client.send("GET /none HTTP/1.1\r\nHost: h\r\nContent-Length: 50000\r\n\r\n");
   client.send(std::string(50'000, 'x') + get("/none"));
-  CHECK(client.read()->body == "fixed");
-  CHECK(client.read()->body == "fixed");
-  CHECK(client.ask("GET /none HTTP/1.1\r\nHost: h\r\nContent-Length: 100001\r\n\r\n")->status ==
+  CHECK(client.read().body == "fixed");
+  CHECK(client.read().body == "fixed");
+  CHECK(client.ask("GET /none HTTP/1.1\r\nHost: h\r\nContent-Length: 100001\r\n\r\n").status ==
         413);
 }
 
@@ -231,14 +224,14 @@ TEST_CASE("100 (Continue) comes after the checks and before the body") {
   };
   {
     Client client = server.connect();
-    CHECK(client.ask(head("application/json", "100-Continue"))->status == 100);
-    CHECK(client.ask("hello")->body == "hello");
+    CHECK(client.ask(head("application/json", "100-Continue")).status == 100);
+    CHECK(client.ask("hello").body == "hello");
     // A body that is there already needs no permission.
-    CHECK(client.ask(head("application/json", "100-continue") + "hello")->status == 200);
+    CHECK(client.ask(head("application/json", "100-continue") + "hello").status == 200);
   }
   {
     Client client = server.connect();
-    CHECK(client.ask(head("text/plain", "100-continue"))->status == 415);
+    CHECK(client.ask(head("text/plain", "100-continue")).status == 415);
     CHECK(client.is_closed_by_server());
   }
   const Answer other = server.ask(head("application/json", "200-ok"));
@@ -260,6 +253,6 @@ TEST_CASE("bytes behind the body may be read") {
                       .body = {.use = BodyUse::Optional}}});
   Client client = server.connect();
   for (const std::size_t size : {0U, 10U, 3900U, 5000U, 50'000U}) {
-    CHECK(client.ask(post("/sum", "text/plain", std::string(size, 'x')))->status == 200);
+    CHECK(client.ask(post("/sum", "text/plain", std::string(size, 'x'))).status == 200);
   }
 }

@@ -28,13 +28,9 @@ std::vector<Route> limited_routes() {
 }
 
 ServerOptions quick() {
-  ServerOptions options;
   // Longer than a busy machine lets a client stand still that is to be served.
-  options.header_timeout = 1s;
-  options.request_timeout = 2s;
-  options.idle_timeout = 1500ms;
-  options.write_timeout = 1500ms;
-  return options;
+  return {
+      .header_timeout = 1s, .request_timeout = 2s, .idle_timeout = 1500ms, .write_timeout = 1500ms};
 }
 
 std::string post_head(std::size_t length) {
@@ -47,7 +43,7 @@ TEST_CASE("an idle connection is closed without a word") {
   TestServer server(limited_routes(), quick());
   Client fresh = server.connect();
   Client used = server.connect();
-  CHECK(used.ask(get("/a"))->status == 200);
+  CHECK(used.ask(get("/a")).status == 200);
   CHECK(fresh.is_closed_by_server());
   CHECK(used.is_closed_by_server());
 }
@@ -66,9 +62,8 @@ TEST_CASE("a head that does not end is 408, also when it drips") {
   CHECK(sent < request.size());
   for (Client* const client : {&silent, &dripping}) {
     const auto answer = client->read();
-    REQUIRE(answer);
-    CHECK(answer->status == 408);
-    CHECK(answer->body.starts_with("request.timeout"));
+    CHECK(answer.status == 408);
+    CHECK(answer.body.starts_with("request.timeout"));
     CHECK(client->is_closed_by_server());
   }
 }
@@ -78,8 +73,7 @@ TEST_CASE(
   TestServer server(limited_routes(), quick());
   for (const bool chunked : {false, true}) {
     Client client = server.connect();
-    client.send(chunked ? "POST /p HTTP/1.1\r\nHost: h\r\nTransfer-Encoding: chunked\r\n\r\n"
-                        : post_head(50'000));
+    client.send(chunked ? kChunkedPost : post_head(50'000));
     int sent = 0;
     while (sent < 200 && client.send(chunked ? "1\r\nx\r\n" : "x")) {
       ++sent;
@@ -87,8 +81,7 @@ TEST_CASE(
     }
     CHECK(sent < 200);
     const auto answer = client.read();
-    REQUIRE(answer);
-    CHECK(answer->status == 408);
+    CHECK(answer.status == 408);
   }
 }
 
@@ -105,30 +98,27 @@ TEST_CASE("a reader that takes nothing is dropped") {
 }
 
 TEST_CASE("connections beyond the cap are answered 503 and closed") {
-  ServerOptions options;
-  options.max_connections = 2;
   ServerHooks hooks;
   hooks.format_error = [](const Error& error, std::optional<int> status, const Request& request) {
     return Response(*status, "application/problem+json",
                     error.message + std::string(request.id_text()))
         .with("Retry-After", "1");
   };
-  TestServer server(limited_routes(), options, hooks);
+  TestServer server(limited_routes(), {.max_connections = 2}, hooks);
   Client first = server.connect();
   Client second = server.connect();
-  CHECK(first.ask(get("/a"))->status == 200);
-  CHECK(second.ask(get("/a"))->status == 200);
+  CHECK(first.ask(get("/a")).status == 200);
+  CHECK(second.ask(get("/a")).status == 200);
   Client third = server.connect();
   const auto answer = third.read();
-  REQUIRE(answer);
-  CHECK(answer->status == 503);
-  CHECK(answer->field("Retry-After") == "1");
-  CHECK(answer->field("Connection") == "close");
-  CHECK(answer->field("Content-Type") == "application/problem+json");
-  CHECK(answer->body.starts_with("too many connections are open"));
+  CHECK(answer.status == 503);
+  CHECK(answer.field("Retry-After") == "1");
+  CHECK(answer.field("Connection") == "close");
+  CHECK(answer.field("Content-Type") == "application/problem+json");
+  CHECK(answer.body.starts_with("too many connections are open"));
   CHECK(third.is_closed_by_server());
   CHECK(server.server().counters().connections_refused == 1);
-  CHECK(first.ask(get("/a"))->status == 200);
+  CHECK(first.ask(get("/a")).status == 200);
 }
 
 TEST_CASE("a connection counts from its acceptance on, however late its I/O thread comes to it") {
@@ -138,26 +128,22 @@ TEST_CASE("a connection counts from its acceptance on, however late its I/O thre
   routes.push_back(answering("/hold", [&](const Request&) -> Result<Response> {
     is_held.count_down();
     goes_on.wait();
-    return Response(200, "text/plain", "held");
+    return plain("held");
   }));
-  ServerOptions options;
-  options.io_threads = 2;  // which get the connections in turn
-  options.max_connections = 4;
-  TestServer server(std::move(routes), options);
+  // The I/O threads get the connections in turn.
+  TestServer server(std::move(routes), {.io_threads = 2, .max_connections = 4});
   Client first = server.connect();
-  CHECK(first.ask(get("/a"))->status == 200);
+  CHECK(first.ask(get("/a")).status == 200);
   Client second = server.connect();
   second.send(get("/hold"));
   is_held.wait();
-  std::vector<Client> more;
-  for (int i = 0; i < 4; ++i) more.push_back(server.connect());
+  std::vector<Client> more = server.connect(4);
   CHECK(comes_true([&] { return server.server().counters().connections_refused == 2; }));
   goes_on.count_down();
-  CHECK(second.read()->body == "held");
+  CHECK(second.read().body == "held");
   for (std::size_t i = 0; i < more.size(); ++i) {
-    const auto answer = i < 2 ? more[i].ask(get("/a")) : more[i].read();
-    REQUIRE(answer);
-    CHECK(answer->status == (i < 2 ? 200 : 503));
+    const Answer answer = i < 2 ? more[i].ask(get("/a")) : more[i].read();
+    CHECK(answer.status == (i < 2 ? 200 : 503));
   }
 }
 
@@ -171,20 +157,17 @@ TEST_CASE("a sender who was refused reads the answer at its own pace, as long as
       std::this_thread::sleep_for(100ms);
       goes_on = client.send("x");
     }
-    const auto answer = client.read();
-    return goes_on && answer && answer->status == 413;
+    return client.read().status == 413 && goes_on;
   };
   CHECK(comes_true(is_heard_out));
 }
 
 TEST_CASE("half-sent large bodies hold no more than the budget, and others are served meanwhile") {
-  ServerOptions options;
-  options.body_budget = 2'500'000;  // two bodies and a half
-  TestServer server(limited_routes(), options);
-  std::vector<Client> stalled;
-  for (int i = 0; i < 20; ++i) {
-    stalled.push_back(server.connect());
-    stalled.back().send(post_head(kBodyLimit) + std::string(30'000, 'x'));
+  // Two bodies and a half.
+  TestServer server(limited_routes(), {.body_budget = 2'500'000});
+  const std::vector<Client> stalled = server.connect(20);
+  for (const Client& client : stalled) {
+    client.send(post_head(kBodyLimit) + std::string(30'000, 'x'));
   }
   const auto in_flight = [&] { return server.server().counters().body_bytes_in_flight; };
   CHECK(comes_true([&] { return in_flight() == 2'000'000; }));
@@ -209,39 +192,18 @@ TEST_CASE("a body that waits too long for memory is 503") {
   CHECK(server.server().counters().body_bytes_in_flight == 0);
 }
 
-namespace {
-
-const std::string kChunkedHead =
-    "POST /p HTTP/1.1\r\nHost: h\r\nTransfer-Encoding: chunked\r\n\r\n";
-
-}  // namespace
-
 TEST_CASE("chunked bodies take their budget and give it back") {
-  ServerOptions options;
-  options.body_budget = kBodyLimit;
-  TestServer server(limited_routes(), options);
+  TestServer server(limited_routes(), {.body_budget = kBodyLimit});
   const std::string body(kBodyLimit, 'c');
-  const std::string request =
-      kChunkedHead + fmt::format("{:x}\r\n{}\r\n0\r\n\r\n", body.size(), body);
+  const std::string request = kChunkedPost + chunk(body) + kLastChunk;
   for (int i = 0; i < 3; ++i) CHECK(server.ask(request).body == body);
   CHECK(server.server().counters().body_bytes_in_flight == 0);
 }
 
-namespace {
-
-/// A chunk of a body of unknown length, and its end.
-std::string chunk(std::size_t size) {
-  return fmt::format("{:x}\r\n{}\r\n", size, std::string(size, 'c'));
-}
-const std::string kLastChunk = "0\r\n\r\n";
-
-}  // namespace
-
 TEST_CASE("bodies of unknown length wait without holding what another waits for") {
-  ServerOptions options;
-  options.body_budget = 2 * kWholeLimit;
-  options.request_timeout = options.stall_time = 120s;  // whatever the machine's speed
-  TestServer server(limited_routes(), options);
+  // The times are enough whatever the machine's speed.
+  TestServer server(limited_routes(),
+                    {.body_budget = 2 * kWholeLimit, .stall_time = 120s, .request_timeout = 120s});
   const std::string head = "POST /whole HTTP/1.1\r\nHost: h\r\nTransfer-Encoding: chunked\r\n\r\n";
   const auto in_flight = [&] { return server.server().counters().body_bytes_in_flight; };
   const auto holds = [&](std::size_t wholes, std::size_t parts) {
@@ -249,15 +211,11 @@ TEST_CASE("bodies of unknown length wait without holding what another waits for"
   };
   // A machine that stands still makes a sender silent by chance, and it has to give way.
   const auto is_served_in_turn = [&] {
-    std::vector<Client> clients;
-    for (int i = 0; i < 5; ++i) clients.push_back(server.connect());
-    const auto send = [&](int i) {
-      clients[static_cast<std::size_t>(i)].send(head + chunk(1'500'000));
+    std::vector<Client> clients = server.connect(5);
+    const auto send = [&](std::size_t i) {
+      clients[i].send(head + chunk(std::string(1'500'000, 'c')));
     };
-    const auto status = [&](std::size_t i) {
-      const auto answer = clients[i].read();
-      return answer ? answer->status : 0;
-    };
+    const auto status = [&](std::size_t i) { return clients[i].read().status; };
     send(0);
     send(1);
     bool right = holds(2, 0);
@@ -268,7 +226,8 @@ TEST_CASE("bodies of unknown length wait without holding what another waits for"
     send(4);  // one more than may wait
     right = right && status(4) == 503;
     // A small one needs only a part.
-    right = right && server.ask(kChunkedHead + chunk(200'000) + kLastChunk).status == 200;
+    right = right &&
+            server.ask(kChunkedPost + chunk(std::string(200'000, 'c')) + kLastChunk).status == 200;
     for (const std::size_t i : {0U, 1U, 2U, 3U}) {
       clients[i].send(kLastChunk);
       right = right && status(i) == 200;
@@ -283,11 +242,10 @@ namespace {
 
 /// Six clients that ask for 20 MB and read little of it.
 std::vector<Client> ask_and_read_not(TestServer& server, std::string& begun) {
-  std::vector<Client> stuck;
-  for (int i = 0; i < 6; ++i) {
-    stuck.push_back(server.connect());
-    stuck.back().send(get("/large", "Connection: close\r\n"));
-    begun = stuck.back().read_some();  // its answer is on its way
+  std::vector<Client> stuck = server.connect(6);
+  for (Client& client : stuck) {
+    client.send(get("/large", "Connection: close\r\n"));
+    begun = client.read_some();  // its answer is on its way
     std::this_thread::sleep_for(100ms);
   }
   return stuck;
@@ -297,10 +255,8 @@ std::vector<Client> ask_and_read_not(TestServer& server, std::string& begun) {
 
 TEST_CASE(
     "answers that nobody takes are bounded in bytes, and the newest is not the one that ends") {
-  ServerOptions options;
-  options.unsent_budget = 50'000'000;  // two answers, and what sockets take of others
-  options.unsent_time = 0ms;
-  TestServer server(limited_routes(), options);
+  // The budget is of two answers, and what sockets take of others.
+  TestServer server(limited_routes(), {.unsent_budget = 50'000'000, .unsent_time = 0ms});
   std::string begun;
   std::vector<Client> stuck = ask_and_read_not(server, begun);
   CHECK(comes_true([&] { return server.server().counters().connections_open == 2; }));
@@ -309,10 +265,7 @@ TEST_CASE(
 }
 
 TEST_CASE("many who read at once get all of it, as long as they take no longer than they may") {
-  ServerOptions options;
-  options.unsent_budget = 50'000'000;
-  options.unsent_time = 60s;
-  TestServer server(limited_routes(), options);
+  TestServer server(limited_routes(), {.unsent_budget = 50'000'000, .unsent_time = 60s});
   std::string begun;
   std::vector<Client> readers = ask_and_read_not(server, begun);
   std::this_thread::sleep_for(2s);

@@ -22,7 +22,7 @@ class Hold {
     return answering(std::move(pattern), [this](const Request&) -> Result<Response> {
       entered_.set_value();
       let_go_.get_future().wait();
-      return Response(200, "text/plain", std::string("held"));
+      return plain("held");
     });
   }
   void wait_until_entered() { entered_.get_future().wait(); }
@@ -51,7 +51,7 @@ struct Turn {
   /// Calls `send`, and returns when what it has sent is answered and the turn is not over.
   template <class Function>
   void begin(Function send) {
-    REQUIRE(other.ask(get("/a"))->status == 200);
+    REQUIRE(other.ask(get("/a")).status == 200);
     holder.send(get("/first"));
     first.wait_until_entered();
     send();
@@ -61,8 +61,8 @@ struct Turn {
   }
   void end() {
     second.let_go();
-    CHECK(holder.read()->body == "held");
-    CHECK(other.read()->body == "held");
+    CHECK(holder.read().body == "held");
+    CHECK(other.read().body == "held");
   }
 };
 
@@ -70,16 +70,13 @@ struct Turn {
 
 TEST_CASE("requests that come before the turn is over are answered, and those that come after") {
   Turn turn;
-  std::vector<Client> clients;
-  for (int i = 0; i < 8; ++i) {
-    clients.push_back(turn.server.connect());
-    REQUIRE(clients.back().ask(get("/a"))->status == 200);
-  }
+  std::vector<Client> clients = turn.server.connect(8);
+  for (Client& client : clients) REQUIRE(client.ask(get("/a")).status == 200);
   turn.begin([&] {
     for (const Client& client : clients) client.send(get("/a"));
   });
   for (std::size_t i = 0; i < clients.size(); ++i) {
-    CHECK(clients[i].read()->status == 200);
+    CHECK(clients[i].read().status == 200);
     // One sends a whole request, one a part of it, one several, one nothing.
     if (i % 4 == 0) clients[i].send(get("/a"));
     if (i % 4 == 1) clients[i].send(get("/a").substr(0, 9));
@@ -90,21 +87,19 @@ TEST_CASE("requests that come before the turn is over are answered, and those th
     if (i % 4 == 1) clients[i].send(get("/a").substr(9));
     if (i % 4 == 3) clients[i].send(get("/a"));
     for (std::size_t answers = i % 4 == 2 ? 3 : 1; answers > 0; --answers) {
-      CHECK(clients[i].read()->status == 200);
+      CHECK(clients[i].read().status == 200);
     }
-    CHECK(clients[i].ask(get("/a"))->status == 200);
+    CHECK(clients[i].ask(get("/a")).status == 200);
   }
 }
 
 TEST_CASE("a client that leaves before the turn is over is seen to have left") {
   Turn turn;
-  std::vector<Client> clients;
-  clients.push_back(turn.server.connect());
-  clients.push_back(turn.server.connect());
+  std::vector<Client> clients = turn.server.connect(2);
   turn.begin([&] {
     for (const Client& client : clients) client.send(get("/a"));
   });
-  for (Client& client : clients) CHECK(client.read()->status == 200);
+  for (Client& client : clients) CHECK(client.read().status == 200);
   clients.front().shut_down_send();
   clients.pop_back();
   turn.end();
@@ -115,9 +110,9 @@ TEST_CASE("a client that leaves before the turn is over is seen to have left") {
 TEST_CASE("stop closes a connection that waits for its turn") {
   Turn turn;
   Client waiting = turn.server.connect();
-  REQUIRE(waiting.ask(get("/a"))->status == 200);
+  REQUIRE(waiting.ask(get("/a")).status == 200);
   turn.begin([&] { waiting.send(get("/a")); });
-  CHECK(waiting.read()->status == 200);
+  CHECK(waiting.read().status == 200);
   std::thread stop([&] { turn.server.server().stop(); });
   turn.end();
   CHECK(waiting.is_closed_by_server());
@@ -126,16 +121,13 @@ TEST_CASE("stop closes a connection that waits for its turn") {
 }
 
 TEST_CASE("the idle time of a connection begins when it waits for its turn") {
-  ServerOptions options;
-  options.idle_timeout = 3s;
-  options.header_timeout = options.request_timeout = 100ms;
-  Turn turn(std::move(options));
+  Turn turn({.header_timeout = 100ms, .request_timeout = 100ms, .idle_timeout = 3s});
   Client waiting = turn.server.connect();
   turn.begin([&] { waiting.send(get("/a")); });
-  CHECK(waiting.read()->status == 200);
+  CHECK(waiting.read().status == 200);
   std::this_thread::sleep_for(200ms);  // the deadlines of its request have passed
   turn.end();
-  CHECK(waiting.ask(get("/a"))->status == 200);
+  CHECK(waiting.ask(get("/a")).status == 200);
   CHECK(waiting.is_closed_by_server());
 }
 
@@ -146,17 +138,17 @@ TEST_CASE("who sends without end does not keep the others waiting") {
   std::atomic<int> flooded_before = -1;
   const auto counts = [&](const Request&) -> Result<Response> {
     ++flooded;
-    return Response(200, "text/plain", std::string("one of many"));
+    return plain("one of many");
   };
   const auto looks = [&](const Request&) -> Result<Response> {
     flooded_before = flooded.load();
-    return Response(200, "text/plain", std::string("one"));
+    return plain("one");
   };
   TestServer server({hold.route("/hold"), answering("/flood", counts), answering("/one", looks)});
   Client holder = server.connect();
   Client flood = server.connect();
   Client one = server.connect();
-  for (Client* each : {&flood, &one}) REQUIRE(each->ask(get("/one"))->status == 200);
+  for (Client* each : {&flood, &one}) REQUIRE(each->ask(get("/one")).status == 200);
   holder.send(get("/hold"));
   hold.wait_until_entered();
   std::string many;
@@ -164,8 +156,8 @@ TEST_CASE("who sends without end does not keep the others waiting") {
   std::thread sender([&] { flood.send(many); });
   one.send(get("/one"));
   hold.let_go();
-  CHECK(one.read()->body == "one");
-  for (int i = 0; i < kFlood; ++i) REQUIRE(flood.read()->status == 200);
+  CHECK(one.read().body == "one");
+  for (int i = 0; i < kFlood; ++i) REQUIRE(flood.read().status == 200);
   sender.join();
   CHECK(flooded_before < kFlood / 2);
 }

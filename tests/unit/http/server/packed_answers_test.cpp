@@ -146,28 +146,28 @@ TEST_CASE("a body over 1 KiB goes out in gzip under a tag of its own") {
     const std::string path = fmt::format("/json/{}", size);
     const auto plain = client.ask(get(path));
     const auto packed = client.ask(get(path, kGzip));
-    CHECK(plain->field("Content-Encoding").empty());
-    CHECK(plain->field("ETag") == "\"t1\"");
-    CHECK(plain->field("Vary") == "Accept, Accept-Encoding");
-    CHECK(packed->field("Content-Encoding") == "gzip");
-    CHECK(packed->field("ETag") == "\"t1-gzip\"");
-    CHECK(packed->field("Vary") == "Accept, Accept-Encoding");
-    CHECK(packed->body.size() < plain->body.size() / 2);
-    CHECK(unpacked(packed->body) == plain->body);
+    CHECK(plain.field("Content-Encoding").empty());
+    CHECK(plain.field("ETag") == "\"t1\"");
+    CHECK(plain.field("Vary") == "Accept, Accept-Encoding");
+    CHECK(packed.field("Content-Encoding") == "gzip");
+    CHECK(packed.field("ETag") == "\"t1-gzip\"");
+    CHECK(packed.field("Vary") == "Accept, Accept-Encoding");
+    CHECK(packed.body.size() < plain.body.size() / 2);
+    CHECK(unpacked(packed.body) == plain.body);
     for (const char* tag : {"\"t1\"", "\"t1-gzip\"", "W/\"t1-gzip\""}) {
       const std::string condition = fmt::format("If-None-Match: {}\r\n", tag);
-      CHECK(client.ask(get(path, condition))->status == 304);
+      CHECK(client.ask(get(path, condition)).status == 304);
       const auto not_modified = client.ask(get(path, condition + std::string(kGzip)));
-      CHECK(not_modified->status == 304);
-      CHECK(not_modified->field("ETag") == "\"t1-gzip\"");
-      CHECK(not_modified->field("Vary") == "Accept, Accept-Encoding");
+      CHECK(not_modified.status == 304);
+      CHECK(not_modified.field("ETag") == "\"t1-gzip\"");
+      CHECK(not_modified.field("Vary") == "Accept, Accept-Encoding");
     }
   }
   const auto head =
       client.ask(fmt::format("HEAD /json/5000 HTTP/1.1\r\nHost: h\r\n{}\r\n", kGzip), true);
   const auto whole = client.ask(get("/json/5000", kGzip));
-  CHECK(head->field("Content-Length") == whole->field("Content-Length"));
-  CHECK(head->field("Content-Encoding") == "gzip");
+  CHECK(head.field("Content-Length") == whole.field("Content-Length"));
+  CHECK(head.field("Content-Encoding") == "gzip");
 }
 
 TEST_CASE("short, coded, foreign and unasked answers stay as they are") {
@@ -175,7 +175,7 @@ TEST_CASE("short, coded, foreign and unasked answers stay as they are") {
   Client client = server.connect();
   const auto is_plain = [&](std::string_view path, std::string_view fields) {
     const auto answer = client.ask(get(path, fields));
-    return answer->status == 200 && answer->field("Content-Encoding").empty();
+    return answer.status == 200 && answer.field("Content-Encoding").empty();
   };
   CHECK(is_plain("/json/1024", kGzip));
   CHECK(is_plain("/bytes/5000", kGzip));
@@ -186,8 +186,8 @@ TEST_CASE("short, coded, foreign and unasked answers stay as they are") {
   CHECK(is_plain("/json/5000", "Accept-Encoding: gzip;q=0\r\n"));
   CHECK(is_plain("/json/5000", "Accept-Encoding: gzip;q=0.5, identity\r\n"));
   const auto coded = client.ask(get("/coded", kGzip));
-  CHECK(unpacked(coded->body) == text_of(5000));
-  CHECK(coded->field("Vary") == "Accept-Encoding");
+  CHECK(unpacked(coded.body) == text_of(5000));
+  CHECK(coded.field("Vary") == "Accept-Encoding");
   const Answer old = server.ask(fmt::format("GET /json/5000 HTTP/1.0\r\nHost: h\r\n{}\r\n", kGzip));
   CHECK(old.body == text_of(5000));
 }
@@ -197,11 +197,11 @@ TEST_CASE("who refuses the plain form gets short answers in gzip too, who refuse
   Client client = server.connect();
   for (const char* path : {"/json/100", "/kept-short"}) {
     const auto answer = client.ask(get(path, "Accept-Encoding: identity;q=0, gzip;q=0.2\r\n"));
-    CHECK(answer->field("Content-Encoding") == "gzip");
-    CHECK(unpacked(answer->body) == text_of(100));
+    CHECK(answer.field("Content-Encoding") == "gzip");
+    CHECK(unpacked(answer.body) == text_of(100));
   }
-  CHECK(client.ask(get("/json/100", "Accept-Encoding: identity;q=0\r\n"))->status == 406);
-  CHECK(client.ask(get("/json/100", "Accept-Encoding: *;q=0\r\n"))->status == 406);
+  CHECK(client.ask(get("/json/100", "Accept-Encoding: identity;q=0\r\n")).status == 406);
+  CHECK(client.ask(get("/json/100", "Accept-Encoding: *;q=0\r\n")).status == 406);
 }
 
 TEST_CASE("a kept answer has both forms") {
@@ -211,16 +211,16 @@ TEST_CASE("a kept answer has both forms") {
     CAPTURE(path);
     const auto plain = client.ask(get(path));
     const auto packed = client.ask(get(path, kGzip));
-    CHECK(plain->field("ETag") == "\"t1\"");
-    CHECK(plain->field("Vary") == "Accept-Encoding");
-    CHECK(packed->field("ETag") == "\"t1-gzip\"");
-    CHECK(packed->field("Content-Encoding") == "gzip");
-    CHECK(packed->field("Content-Length") == std::to_string(packed->body.size()));
-    CHECK(unpacked(packed->body) == plain->body);
-    CHECK(client.ask(get(path, kGzip))->body == packed->body);
+    CHECK(plain.field("ETag") == "\"t1\"");
+    CHECK(plain.field("Vary") == "Accept-Encoding");
+    CHECK(packed.field("ETag") == "\"t1-gzip\"");
+    CHECK(packed.field("Content-Encoding") == "gzip");
+    CHECK(packed.field("Content-Length") == std::to_string(packed.body.size()));
+    CHECK(unpacked(packed.body) == plain.body);
+    CHECK(client.ask(get(path, kGzip)).body == packed.body);
     const auto not_modified = client.ask(get(path, "If-None-Match: \"t1-gzip\"\r\n"));
-    CHECK(not_modified->status == 304);
-    CHECK(not_modified->field("ETag") == "\"t1\"");
+    CHECK(not_modified.status == 304);
+    CHECK(not_modified.field("ETag") == "\"t1\"");
   }
 }
 
@@ -235,13 +235,13 @@ TEST_CASE("a kept answer is the same whatever its request's id") {
     };
     const auto whole = of_id(as_own);
     const auto in_parts = of_id("b");
-    CHECK(whole->body == in_parts->body);
-    std::string head = whole->head;
+    CHECK(whole.body == in_parts.body);
+    std::string head = whole.head;
     head.replace(head.find(as_own), as_own.size(), "b");
     // Between the two answers a second may end.
-    head.replace(head.find(whole->field("Date")), whole->field("Date").size(),
-                 in_parts->field("Date"));
-    CHECK(head == in_parts->head);
+    head.replace(head.find(whole.field("Date")), whole.field("Date").size(),
+                 in_parts.field("Date"));
+    CHECK(head == in_parts.head);
   }
 }
 
@@ -250,17 +250,15 @@ TEST_CASE("a streamed body is packed piece by piece") {
   Client client = server.connect();
   const auto plain = client.ask(get("/stream"));
   const auto packed = client.ask(get("/stream", kGzip));
-  CHECK(packed->field("Content-Encoding") == "gzip");
-  CHECK(packed->field("Transfer-Encoding") == "chunked");
-  CHECK(packed->body.size() < plain->body.size() / 4);
-  CHECK(unpacked(packed->body) == plain->body);
-  CHECK(client.ask(get("/json/10"))->body == text_of(10));
+  CHECK(packed.field("Content-Encoding") == "gzip");
+  CHECK(packed.field("Transfer-Encoding") == "chunked");
+  CHECK(packed.body.size() < plain.body.size() / 4);
+  CHECK(unpacked(packed.body) == plain.body);
+  CHECK(client.ask(get("/json/10")).body == text_of(10));
 }
 
 TEST_CASE("the body of a packed answer that nobody takes counts as unsent") {
-  ServerOptions options;
-  options.unsent_budget = 50'000'000;  // two bodies
-  options.unsent_time = std::chrono::milliseconds(0);
+  // The budget is of two bodies.
   TestServer server({answering("/noise",
                                [](const Request&) {
                                  std::string text(20'000'000, '\0');
@@ -271,12 +269,11 @@ TEST_CASE("the body of a packed answer that nobody takes counts as unsent") {
                                  }
                                  return Response(200, "application/json", std::move(text));
                                })},
-                    options);
-  std::vector<Client> stuck;
-  for (int i = 0; i < 6; ++i) {
-    stuck.push_back(server.connect());
-    stuck.back().send(get("/noise", kGzip));
-    REQUIRE_FALSE(stuck.back().read_some().empty());
+                    {.unsent_budget = 50'000'000, .unsent_time = std::chrono::milliseconds(0)});
+  std::vector<Client> stuck = server.connect(6);
+  for (Client& client : stuck) {
+    client.send(get("/noise", kGzip));
+    REQUIRE_FALSE(client.read_some().empty());
   }
   CHECK(comes_true([&] { return server.server().counters().connections_open == 2; }));
 }

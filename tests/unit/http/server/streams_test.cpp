@@ -109,12 +109,11 @@ TEST_CASE("a streamed body arrives whole in chunks and the connection goes on") 
   Client client = server.connect();
   client.send(get("/lines") + get("/a"));
   const auto answer = client.read();
-  REQUIRE(answer);
-  CHECK(answer->field("Transfer-Encoding") == "chunked");
-  CHECK(answer->field("Content-Length").empty());
-  CHECK(answer->body.starts_with("line 0\nline 1\n"));
-  CHECK(answer->body.ends_with("line 99999\n"));
-  CHECK(client.read()->body == "fixed");
+  CHECK(answer.field("Transfer-Encoding") == "chunked");
+  CHECK(answer.field("Content-Length").empty());
+  CHECK(answer.body.starts_with("line 0\nline 1\n"));
+  CHECK(answer.body.ends_with("line 99999\n"));
+  CHECK(client.read().body == "fixed");
 }
 
 TEST_CASE("HTTP/1.0 gets a stream up to the end of the connection, HEAD gets none") {
@@ -127,8 +126,8 @@ TEST_CASE("HTTP/1.0 gets a stream up to the end of the connection, HEAD gets non
   CHECK(old.body.ends_with("line 4999\n"));
   produced = 0;
   Client client = server.connect();
-  CHECK(client.ask("HEAD /lines HTTP/1.1\r\nHost: h\r\n\r\n", true)->status == 200);
-  CHECK(client.ask(get("/a"))->body == "fixed");
+  CHECK(client.ask("HEAD /lines HTTP/1.1\r\nHost: h\r\n\r\n", true).status == 200);
+  CHECK(client.ask(get("/a")).body == "fixed");
   CHECK(produced == 0);
 }
 
@@ -136,10 +135,8 @@ TEST_CASE(
     "a stream is produced no faster than its reader takes it, and a stuck reader is dropped") {
   std::atomic<int> produced = 0;
   Worker worker;
-  ServerOptions options;
-  options.write_timeout = 400ms;
   constexpr int kMany = 20'000'000;
-  TestServer server({lines(worker, kMany, produced)}, options);
+  TestServer server({lines(worker, kMany, produced)}, {.write_timeout = 400ms});
   Client client = server.connect();
   client.send(get("/lines"));
   client.read_some();
@@ -149,9 +146,8 @@ TEST_CASE(
 
 TEST_CASE("events leave at once, heartbeats fill the silence") {
   const auto stream = std::make_shared<Events>();
-  ServerOptions options;
-  options.write_timeout = 100ms;  // for a fine sweep
-  TestServer server({events(stream, 50ms)}, options);
+  // The time to write is short, for a fine sweep.
+  TestServer server({events(stream, 50ms)}, {.write_timeout = 100ms});
   Client client = server.connect();
   client.send(get("/events"));
   std::string seen = client.read_some();
@@ -165,9 +161,7 @@ TEST_CASE("events leave at once, heartbeats fill the silence") {
 
 TEST_CASE("a stream whose reader has gone is cancelled") {
   const auto stream = std::make_shared<Events>();
-  ServerOptions options;
-  options.write_timeout = 100ms;
-  TestServer server({events(stream, 30ms)}, options);
+  TestServer server({events(stream, 30ms)}, {.write_timeout = 100ms});
   {
     Client client = server.connect();
     client.send(get("/events"));
@@ -186,8 +180,6 @@ TEST_CASE("a stream that throws in the silence ends alone, and deadlines are kep
    private:
     std::optional<ChunkSink> sink_;
   };
-  ServerOptions options;
-  options.idle_timeout = 1500ms;
   const Route throwing{.pattern = "/events",
                        .handler = [](const Request&) -> Result<Response> {
                          return Response(
@@ -195,13 +187,13 @@ TEST_CASE("a stream that throws in the silence ends alone, and deadlines are kep
                              StreamedBody{std::make_shared<Throwing>(), ": \n\n", 50ms});
                        },
                        .response_types = {"text/event-stream"}};
-  TestServer server({throwing, echo(Method::Get, "/a")}, options);
+  TestServer server({throwing, echo(Method::Get, "/a")}, {.idle_timeout = 1500ms});
   Client reader = server.connect();
   reader.send(get("/events"));
   CHECK(reader.read_some().find("200 OK") != std::string::npos);
   CHECK(reader.is_closed_by_server());
   Client idle = server.connect();
-  CHECK(idle.ask(get("/a"))->status == 200);
+  CHECK(idle.ask(get("/a")).status == 200);
   CHECK(idle.is_closed_by_server());
 }
 

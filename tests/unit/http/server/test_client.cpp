@@ -63,12 +63,12 @@ bool Client::receive() {
   return true;
 }
 
-std::optional<Answer> Client::ask(std::string_view bytes, bool head_only) {
+Answer Client::ask(std::string_view bytes, bool head_only) {
   send(bytes);
   return read(head_only);
 }
 
-std::optional<Answer> Client::read(bool head_only) {
+Answer Client::read(bool head_only) {
   const auto take = [this](std::size_t count) {
     std::string taken = buffer_.substr(0, count);
     buffer_.erase(0, count);
@@ -90,7 +90,7 @@ std::optional<Answer> Client::read(bool head_only) {
   };
 
   while (buffer_.find("\r\n\r\n") == std::string::npos) {
-    if (!receive()) return std::nullopt;
+    if (!receive()) return {};
   }
   Answer answer;
   answer.head = take(buffer_.find("\r\n\r\n") + 2);
@@ -101,9 +101,9 @@ std::optional<Answer> Client::read(bool head_only) {
   if (answer.field("Transfer-Encoding") == "chunked") {
     for (;;) {
       const auto line = take_line();
-      if (!line) return std::nullopt;
+      if (!line) return {};
       const auto size = std::strtoul(line->c_str(), nullptr, 16);
-      if (!wait_for(size + 2)) return std::nullopt;
+      if (!wait_for(size + 2)) return {};
       answer.body += take(size);
       take(2);
       if (size == 0) return answer;
@@ -114,7 +114,7 @@ std::optional<Answer> Client::read(bool head_only) {
     answer.body = read_to_end();
   } else {
     const auto size = std::strtoul(length.c_str(), nullptr, 10);
-    if (!wait_for(size)) return std::nullopt;
+    if (!wait_for(size)) return {};
     answer.body = take(size);
   }
   return answer;

@@ -4,7 +4,7 @@ namespace fitgauge::http::test {
 
 /// One answer as it came over the wire.
 struct Answer {
-  int status = 0;
+  int status = 0;    ///< 0: the server closed instead
   std::string head;  ///< status line and fields
   std::string body;  ///< chunks joined
 
@@ -25,10 +25,10 @@ class Client {
   bool send(std::string_view bytes) const;
   void shut_down_send() const;
 
-  /// The next answer; `head_only` for the answer to HEAD. Empty when the server closes instead.
-  std::optional<Answer> read(bool head_only = false);
+  /// The next answer; `head_only` for the answer to HEAD.
+  Answer read(bool head_only = false);
   /// Sends and reads one answer.
-  std::optional<Answer> ask(std::string_view bytes, bool head_only = false);
+  Answer ask(std::string_view bytes, bool head_only = false);
   /// Whatever comes until the server closes.
   std::string read_to_end();
   /// Whatever has come so far, after waiting for at least one byte (or the end).

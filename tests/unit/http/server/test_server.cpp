@@ -9,12 +9,6 @@ TestServer::TestServer(std::vector<Route> routes, ServerOptions options, ServerH
   server_ = std::move(*started);
 }
 
-Answer TestServer::ask(std::string_view request, bool head_only) const {
-  auto answer = connect().ask(request, head_only);
-  if (!answer) throw std::runtime_error("the server closed without an answer");
-  return *answer;
-}
-
 Route echo(Method method, std::string pattern, BodyRules body) {
   return {.method = method,
           .pattern = std::move(pattern),
@@ -29,6 +23,10 @@ Route echo(Method method, std::string pattern, BodyRules body) {
 
 std::string get(std::string_view target, std::string_view more_fields) {
   return fmt::format("GET {} HTTP/1.1\r\nHost: test\r\n{}\r\n", target, more_fields);
+}
+
+std::string chunk(std::string_view bytes) {
+  return fmt::format("{:X}\r\n{}\r\n", bytes.size(), bytes);
 }
 
 std::string post(std::string_view target, std::string_view type, std::string_view body,

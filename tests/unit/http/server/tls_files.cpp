@@ -20,18 +20,6 @@ File create(const std::string& path) { return File(std::fopen(path.c_str(), "w")
 
 }  // namespace
 
-TlsFiles::TlsFiles(const std::string& name) {
-  std::string pattern = std::filesystem::temp_directory_path() / "fitgauge-tls-XXXXXX";
-  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  folder_ = pattern;
-  renew(name);
-}
-
-TlsFiles::~TlsFiles() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
-
 void TlsFiles::renew(const std::string& name) const {
   const std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)> key(EVP_EC_gen("P-256"),
                                                                 &EVP_PKEY_free);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include "support/files.hpp"
 
 namespace fitgauge::http::test {
 
@@ -8,19 +8,16 @@ namespace fitgauge::http::test {
 /// with the object.
 class TlsFiles {
  public:
-  explicit TlsFiles(const std::string& name);
-  ~TlsFiles();
-  TlsFiles(const TlsFiles&) = delete;
-  TlsFiles& operator=(const TlsFiles&) = delete;
+  explicit TlsFiles(const std::string& name) { renew(name); }
 
   /// Replaces both files by new ones.
   void renew(const std::string& name) const;
 
-  std::string certificate() const { return folder_ / "certificate.pem"; }
-  std::string key() const { return folder_ / "key.pem"; }
+  std::string certificate() const { return folder_.path() / "certificate.pem"; }
+  std::string key() const { return folder_.path() / "key.pem"; }
 
  private:
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 }  // namespace fitgauge::http::test

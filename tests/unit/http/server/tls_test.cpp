@@ -75,11 +75,7 @@ std::vector<Route> tls_routes() {
           })};
 }
 
-ServerOptions with(TlsOptions tls) {
-  ServerOptions options;
-  options.tls = std::move(tls);
-  return options;
-}
+ServerOptions with(TlsOptions tls) { return {.tls = std::move(tls)}; }
 
 const std::string kLast = "Connection: close\r\n";
 
@@ -132,7 +128,6 @@ TEST_CASE("new certificate files are used after reload_tls, unusable ones are no
   CHECK(ask(server.port(), get("/who", kLast)).server_name == "new");
   std::ofstream(files.key()) << "not a key";
   const auto reloaded = server.server().reload_tls();
-  REQUIRE(reloaded.has_error());
   CHECK(reloaded.error().code == ErrorCode::ConfigInvalid);
   CHECK(reloaded.error().message.find(files.key()) != std::string::npos);
   CHECK(ask(server.port(), get("/who", kLast)).server_name == "new");

@@ -2,6 +2,8 @@
 
 #include <queue>
 
+#include "test_server.hpp"
+
 namespace fitgauge::http::test {
 
 /// A thread that runs what it is given, in order; what is queued at the end is dropped.
@@ -50,5 +52,17 @@ class Worker {
   bool done_ = false;
   std::thread thread_;
 };
+
+/// A GET route that `make` answers, on the worker's thread.
+template <class Make>
+Route answering_on(Worker& worker, std::string pattern, Make make) {
+  return answering(std::move(pattern),
+                   [&worker, make](const Request& request, Responder responder) {
+                     worker.run([&request, make, responder = std::move(responder)]() mutable {
+                       const Result<Response> made = make(request);
+                       made ? responder.answer(*made) : responder.fail(made.error());
+                     });
+                   });
+}
 
 }  // namespace fitgauge::http::test
