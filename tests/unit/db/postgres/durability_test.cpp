@@ -68,11 +68,7 @@ TEST_CASE("a commit frees the head before the disk has it, but not with new name
   CHECK(commits_with(fixture, "off") == 1);
   CHECK(commits_with(fixture, "on") == 0);
 
-  const auto imported = fixture.write([](Stores& stores) {
-    return stores.tables.import({.content = {}, .source = "a shop's", .parent = {}, .caller = {}},
-                                5);
-  });
-  REQUIRE(imported.has_value());
+  REQUIRE(fixture.import_it7(21).has_value());
   CHECK(commits_with(fixture, "off") == 1);
   CHECK(commits_with(fixture, "on") == 1);
 }

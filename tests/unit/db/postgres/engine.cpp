@@ -1,14 +1,12 @@
 #include "engine.hpp"
 
 #include <doctest/doctest.h>
-#include <stdlib.h>
-
-#include <filesystem>
 
 #include "db/postgres/connection.hpp"
 #include "db/sql/sealed_table.hpp"
 #include "db/sql/statement.hpp"
 #include "db/store/database.hpp"
+#include "support/files.hpp"
 
 namespace fitgauge::store::test {
 namespace {
@@ -20,30 +18,25 @@ constexpr const char* kCluster = "tests/support/postgres_cluster";
 class Cluster {
  public:
   Cluster() {
-    std::string name = (std::filesystem::temp_directory_path() / "fitgauge-pg-XXXXXX").string();
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    folder_ = name;
     const std::string start =
         fmt::format("{} start {} fsync=off full_page_writes=off wal_writer_delay=10s", kCluster,
-                    folder_.string());
+                    folder_.path().string());
     REQUIRE_MESSAGE(std::system(start.c_str()) == 0,
                     "PostgreSQL does not start: scripts/install test");
   }
   Cluster(const Cluster&) = delete;
   Cluster& operator=(const Cluster&) = delete;
   ~Cluster() {
-    const std::string stop = fmt::format("{} stop {} immediate", kCluster, folder_.string());
+    const std::string stop = fmt::format("{} stop {} immediate", kCluster, folder_.path().string());
     [[maybe_unused]] const int code = std::system(stop.c_str());
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
   }
 
   std::string address(const std::string& database) const {
-    return fmt::format("postgresql:///{}?host={}&user=postgres", database, folder_.string());
+    return fmt::format("postgresql:///{}?host={}&user=postgres", database, folder_.path().string());
   }
 
  private:
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 const Cluster& cluster() {

@@ -18,9 +18,7 @@ struct Sizes {
 /// Commits some 24 MB in pieces of a fiftieth of a megabyte.
 Sizes sizes_after_many_commits(int checkpoint_pages) {
   Fixture fixture;
-  fixture.database.reset();
-  fixture.options.checkpoint_pages = checkpoint_pages;
-  fixture.open();
+  fixture.reopen([&](OpenOptions& options) { options.checkpoint_pages = checkpoint_pages; });
   const std::string comment(3'900, 'c');
   MeasurementRow row = sample_row();
   row.comment = comment;
@@ -47,9 +45,7 @@ TEST_CASE("the log is copied while commits go on, and starts anew") {
 
 TEST_CASE("a reader of an old state holds up neither commits nor, afterwards, the log") {
   Fixture fixture;
-  fixture.database.reset();
-  fixture.options.checkpoint_pages = 20;
-  fixture.open();
+  fixture.reopen([](OpenOptions& options) { options.checkpoint_pages = 20; });
   const auto log_pages_of = [&](int commits) {
     for (int i = 0; i < commits; ++i) REQUIRE(fixture.append(sample_row()).has_value());
     return std::filesystem::file_size(fixture.directory.file().string() + "-wal") / 4096;

@@ -19,39 +19,32 @@ struct Everything : Fixture {
     rows.back().correction_reason = "wrong part";
     REQUIRE(append(std::span(rows).first(1099)).has_value());
     REQUIRE(append(rows.back()).has_value());
-    while (
-        *write([](Stores& stores) -> Result<bool> { return stores.measurements.index_step(); })) {
-    }
-    REQUIRE(write([this](Stores& stores) -> Result<bool> {
-              fill(stores, clock.now().nanoseconds);
-              return true;
-            }).has_value());
-    REQUIRE(
-        write([](Stores& stores) -> Result<bool> {
-          stores.log.set_name("fitgauge/station/5f0c9a3e");
-          stores.log.add_key("key", 1);
-          const LogStore::Node node{.level = 1, .index = 0, .hash = {}};
-          stores.log.grow(1100, std::span(&node, 1));
-          const std::int64_t other = stores.origins.add("5f0c9a3e77d21b40");
-          stores.origins.set_head({.number = other,
-                                   .digits = {},
-                                   .first_row = 2000,
-                                   .size = 1,
-                                   .checkpoint = "fitgauge/b/5f0c9a3e"});
-          stores.notes.append({.measurement = 1, .cause = "worn", .origin = other, .number = 3});
-          stores.origins.add_key(other, "key", 1);
-          stores.origins.keep_nodes(other, std::span(&node, 1));
-          CHECK(stores.origins.add_fork(other, "fitgauge/b/5f0c9a3e", 1));
-          CHECK_FALSE(stores.origins.add_fork(other, "fitgauge/b/5f0c9a3e", 2));
-          CHECK(stores.origins.add_revision("2026-a") == stores.origins.add_revision("2026-a"));
-          stores.revisions.set_received(RevisionKind::Plan, "4711", {.number = 3, .digest = {}});
-          const std::int64_t branch = stores.origins.add("9c3e77d21b405f0a");
-          stores.origins.set_base(branch, {.origin = other, .size = 1});
-          stores.log.begin_branch(1100, {1}, "fitgauge/station/9c3e77d2");
-          stores.log.set_mark(LogStore::Mark::Forked, "another");
-          stores.origins.set_forwarded({.centre = "https://centre", .size = 7});
-          return true;
-        }).has_value());
+    index_all();
+    change([this](Stores& stores) { fill(stores, clock.now().nanoseconds); });
+    change([](Stores& stores) {
+      stores.log.set_name("fitgauge/station/5f0c9a3e");
+      stores.log.add_key("key", 1);
+      const LogStore::Node node{.level = 1, .index = 0, .hash = {}};
+      stores.log.grow(1100, std::span(&node, 1));
+      const std::int64_t other = stores.origins.add("5f0c9a3e77d21b40");
+      stores.origins.set_head({.number = other,
+                               .digits = {},
+                               .first_row = 2000,
+                               .size = 1,
+                               .checkpoint = "fitgauge/b/5f0c9a3e"});
+      stores.notes.append({.measurement = 1, .cause = "worn", .origin = other, .number = 3});
+      stores.origins.add_key(other, "key", 1);
+      stores.origins.keep_nodes(other, std::span(&node, 1));
+      CHECK(stores.origins.add_fork(other, "fitgauge/b/5f0c9a3e", 1));
+      CHECK_FALSE(stores.origins.add_fork(other, "fitgauge/b/5f0c9a3e", 2));
+      CHECK(stores.origins.add_revision("2026-a") == stores.origins.add_revision("2026-a"));
+      stores.revisions.set_received(RevisionKind::Plan, "4711", {.number = 3, .digest = {}});
+      const std::int64_t branch = stores.origins.add("9c3e77d21b405f0a");
+      stores.origins.set_base(branch, {.origin = other, .size = 1});
+      stores.log.begin_branch(1100, {1}, "fitgauge/station/9c3e77d2");
+      stores.log.set_mark(LogStore::Mark::Forked, "another");
+      stores.origins.set_forwarded({.centre = "https://centre", .size = 7});
+    });
     REQUIRE(database->verify(check_hash)->findings.empty());
     database.reset();
   }

@@ -30,11 +30,7 @@ struct Shop : Fixture {
     rows.at(kTheOne - 1).machine = "M1";
     rows.at(kTheOne - 1).operator_id = "8";
     REQUIRE(append(rows).has_value());
-    const auto step = [](Stores& stores) -> Result<bool> {
-      return stores.measurements.index_step();
-    };
-    while (*write(step)) {
-    }
+    index_all();
     const auto t = sample_row().measured_at_ns;
     for (const auto& [level, node] :
          {std::pair{0, kNode.ids().last / kBlock - 1}, {2, std::int64_t{0}}}) {

@@ -15,9 +15,7 @@ namespace {
 struct VerifyFixture : Fixture {
   VerifyFixture() {
     REQUIRE(append(std::vector<MeasurementRow>(5, sample_row())).has_value());
-    REQUIRE(write([](Stores& stores) {
-              return stores.tables.import({.content = it7(21), .source = "test"}, 1);
-            }).has_value());
+    REQUIRE(import_it7(21).has_value());
   }
 
   /// Does with the file what fitgauge itself refuses.
@@ -34,9 +32,8 @@ struct VerifyFixture : Fixture {
   }
 
   std::vector<std::string> findings(const MeasurementCheck& check = check_hash) {
-    const auto report = database->verify(check);
-    REQUIRE(report.has_value());
-    return report->findings;
+    const auto report = database->verify(check).value();
+    return report.findings;
   }
 };
 
@@ -44,10 +41,9 @@ struct VerifyFixture : Fixture {
 
 TEST_CASE("a sound database verifies") {
   VerifyFixture fixture;
-  const auto report = fixture.database->verify();
-  REQUIRE(report.has_value());
-  CHECK(report->measurements == 5);
-  CHECK(report->findings.empty());
+  const auto report = fixture.database->verify().value();
+  CHECK(report.measurements == 5);
+  CHECK(report.findings.empty());
 }
 
 TEST_CASE("a sound database verifies while its measurements are being indexed") {
@@ -72,60 +68,34 @@ TEST_CASE("rows that do not go on where the others end are refused") {
   CHECK(fixture.last_id() == 5);
 }
 
-TEST_CASE("the first altered measurement is named") {
-  VerifyFixture fixture;
-  SUBCASE("a value") {
-    fixture.tamper("UPDATE measurements SET measured_nm = 25014000 WHERE id >= 3");
+TEST_CASE("what is altered is named, of measurements the first") {
+  struct Tampered {
+    std::string sql;
+    std::string named;
+    std::size_t findings;
+  };
+  const Tampered all[] = {
+      {"UPDATE measurements SET measured_nm = 25014000 WHERE id >= 3", "measurement 3 ", 3},
+      {"UPDATE measurements SET comment = '' WHERE id = 1", "measurement 1 ", 1},  // was not given
+      {"UPDATE measurements SET hash = zeroblob(32) WHERE id = 2", "measurement 2 ", 1},
+      {"DELETE FROM measurements WHERE id IN (2, 3)", "2 to 3 are missing", 1},
+      {"UPDATE table_cells SET value_nm = 22", "table revision 1-", 1},
+      {"DROP INDEX measurement_corrections", "index measurement_corrections", 1},
+      {"CREATE TRIGGER extra AFTER INSERT ON events BEGIN SELECT 1; END", "trigger extra", 1},
+      // Of each of five: the revision that is missing, and the hash.
+      {"UPDATE measurements SET table_revision = 9, basis = 1, tolerance_class = 'H7'",
+       "measurement 1 ", 10},
+      // The reference, the digest and the seal.
+      {"UPDATE table_revisions SET table_set = 77", "table_sets", 3}};
+  for (const auto& [sql, named, count] : all) {
+    CAPTURE(sql);
+    VerifyFixture fixture;
+    fixture.tamper(sql);
     const auto findings = fixture.findings();
-    REQUIRE(findings.size() == 3);
-    CHECK(findings[0].find("measurement 3 ") != std::string::npos);
+    CHECK(findings.size() == count);
+    const std::string first = findings.empty() ? "nothing is found" : findings[0];
+    CHECK_MESSAGE(first.find(named) != std::string::npos, first);
   }
-  SUBCASE("a text that was not given") {
-    fixture.tamper("UPDATE measurements SET comment = '' WHERE id = 1");
-    const auto findings = fixture.findings();
-    REQUIRE(findings.size() == 1);
-    CHECK(findings[0].find("measurement 1 ") != std::string::npos);
-  }
-  SUBCASE("a hash") {
-    fixture.tamper("UPDATE measurements SET hash = zeroblob(32) WHERE id = 2");
-    const auto findings = fixture.findings();
-    REQUIRE(findings.size() == 1);
-    CHECK(findings[0].find("measurement 2 ") != std::string::npos);
-  }
-  SUBCASE("rows taken out") {
-    fixture.tamper("DELETE FROM measurements WHERE id IN (2, 3)");
-    const auto findings = fixture.findings();
-    REQUIRE(findings.size() == 1);
-    CHECK(findings[0].find("2 to 3 are missing") != std::string::npos);
-  }
-}
-
-TEST_CASE("an altered cell, schema or reference is named") {
-  VerifyFixture fixture;
-  std::string place;
-  SUBCASE("cell") {
-    fixture.tamper("UPDATE table_cells SET value_nm = 22");
-    place = "table revision 1-";
-  }
-  SUBCASE("dropped index") {
-    fixture.tamper("DROP INDEX measurement_corrections");
-    place = "index measurement_corrections";
-  }
-  SUBCASE("added trigger") {
-    fixture.tamper("CREATE TRIGGER extra AFTER INSERT ON events BEGIN SELECT 1; END");
-    place = "trigger extra";
-  }
-  SUBCASE("table revision of a measurement") {
-    fixture.tamper("UPDATE measurements SET table_revision = 9, basis = 1, tolerance_class = 'H7'");
-    place = "measurement 1 ";
-  }
-  SUBCASE("reference") {
-    fixture.tamper("UPDATE table_revisions SET table_set = 77");
-    place = "table_sets";
-  }
-  const auto findings = fixture.findings();
-  REQUIRE_FALSE(findings.empty());
-  CHECK_MESSAGE(findings[0].find(place) != std::string::npos, findings[0]);
 }
 
 TEST_CASE("what the caller finds wrong with a measurement is in the report") {
@@ -150,41 +120,34 @@ TEST_CASE("a damaged page ends the verification with a finding") {
 }
 
 TEST_CASE("what is derived from the measurements is derived again") {
-  VerifyFixture fixture;
+  const std::pair<std::string, std::string> all[] = {
+      {"a look-up that passes rows over",
+       "DELETE FROM measurement_postings WHERE field = 1 AND block = 1"},
+      {"a look-up with another row",
+       "UPDATE measurement_postings SET rows = x'0100' WHERE field = 1 AND block = 1"},
+      {"a value that no measurement has",
+       "INSERT INTO measurement_postings VALUES (1, 'SN-2', 1, x'0100')"},
+      {"another sum",
+       "UPDATE measurement_aggregates SET statistics = zeroblob(64) WHERE level = 0 "
+       "AND node = 1 AND field = 1"},
+      {"another value among those for figures",
+       "UPDATE measurement_values SET bytes = zeroblob(1030) WHERE block = 1"},
+      {"values of a block that is not there", "INSERT INTO measurement_values VALUES (7, x'00')"},
+      {"other times", "UPDATE measurement_nodes SET max_measured_at = 1 WHERE node = 1"}};
   MeasurementRow row = sample_row();
   row.part_id = "SN-1";
-  REQUIRE(fixture.append(std::vector<MeasurementRow>(3'000, row)).has_value());
-  while (*fixture.write(
-      [](Stores& stores) -> Result<bool> { return stores.measurements.index_step(); })) {
-  }
-  CHECK(fixture.findings().empty());
-  SUBCASE("a look-up that passes rows over") {
-    fixture.tamper("DELETE FROM measurement_postings WHERE field = 1 AND block = 1");
-  }
-  SUBCASE("a look-up with another row") {
-    fixture.tamper("UPDATE measurement_postings SET rows = x'0100' WHERE field = 1 AND block = 1");
-  }
-  SUBCASE("a value that no measurement has") {
-    fixture.tamper("INSERT INTO measurement_postings VALUES (1, 'SN-2', 1, x'0100')");
-  }
-  SUBCASE("another sum") {
-    fixture.tamper(
-        "UPDATE measurement_aggregates SET statistics = zeroblob(64) WHERE level = 0 "
-        "AND node = 1 AND field = 1");
-  }
-  SUBCASE("another value among those for figures") {
-    fixture.tamper("UPDATE measurement_values SET bytes = zeroblob(1030) WHERE block = 1");
-  }
-  SUBCASE("values of a block that is not there") {
-    fixture.tamper("INSERT INTO measurement_values VALUES (7, x'00')");
-  }
-  SUBCASE("other times") {
-    fixture.tamper("UPDATE measurement_nodes SET max_measured_at = 1 WHERE node = 1");
-  }
-  const auto findings = fixture.findings();
-  CHECK_FALSE(findings.empty());
-  for (const std::string& finding : findings) {
-    CHECK_MESSAGE(finding.find("has -") == std::string::npos, finding);
+  for (const auto& [name, sql] : all) {
+    CAPTURE(name);
+    VerifyFixture fixture;
+    REQUIRE(fixture.append(std::vector<MeasurementRow>(3'000, row)).has_value());
+    fixture.index_all();
+    CHECK(fixture.findings().empty());
+    fixture.tamper(sql);
+    const auto findings = fixture.findings();
+    CHECK_FALSE(findings.empty());
+    for (const std::string& finding : findings) {
+      CHECK_MESSAGE(finding.find("has -") == std::string::npos, finding);
+    }
   }
 }
 
@@ -193,9 +156,7 @@ TEST_CASE("columns and pairs of fields are derived again") {
   MeasurementRow row = sample_row();
   row.machine = "M7";
   REQUIRE(fixture.append(std::vector<MeasurementRow>(33'000, row)).has_value());
-  while (*fixture.write(
-      [](Stores& stores) -> Result<bool> { return stores.measurements.index_step(); })) {
-  }
+  fixture.index_all();
   CHECK(fixture.findings().empty());
   const auto count = [&] { return fixture.findings().size(); };
   fixture.tamper("UPDATE measurement_pairs SET bytes = x'00' WHERE field = 4 AND by_field = 3");
@@ -218,14 +179,10 @@ TEST_CASE("tables that change while rows are being read are known") {
   bool has_changed = false;
   const auto finding = verifier.first_altered_row([&] {
     if (std::exchange(has_changed, true)) return true;
-    const auto revision = fixture.write([](Stores& stores) {
-      return stores.tables.import({.content = it7(22), .source = "test", .parent = 1}, 2);
-    });
-    REQUIRE(revision.has_value());
     MeasurementRow row = sample_row();
     row.basis = Basis::Iso286;
     row.tolerance_class = "H7";
-    row.table_revision = revision->number;
+    row.table_revision = fixture.import_it7(22, 1).value().number;
     REQUIRE(fixture.append(row).has_value());
     return true;
   });
@@ -234,30 +191,23 @@ TEST_CASE("tables that change while rows are being read are known") {
 }
 
 TEST_CASE("damage is found before somebody asks for the row") {
-  VerifyFixture fixture;
-  REQUIRE(fixture.append(std::vector<MeasurementRow>(3000, sample_row())).has_value());
-  const auto health_after_a_pass = [&] {
-    fixture.database.reset();
-    fixture.options.check_measurement = check_hash;
-    fixture.options.scrub_interval = std::chrono::milliseconds(1);
-    fixture.open();
+  for (const auto& [sql, named] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"UPDATE measurements SET comment = 'x' WHERE id = 2500", "measurement 2500 "},
+           {"UPDATE table_cells SET value_nm = 22", "table revision 1-"},
+           {"UPDATE table_revisions SET source = 'x'", "table_revisions"}}) {
+    CAPTURE(sql);
+    VerifyFixture fixture;
+    REQUIRE(fixture.append(std::vector<MeasurementRow>(3000, sample_row())).has_value());
+    fixture.tamper(sql);
+    fixture.reopen([](OpenOptions& options) {
+      options.check_measurement = check_hash;
+      options.scrub_interval = std::chrono::milliseconds(1);
+    });
     Health health;
     comes_true([&] {
       health = fixture.database->health();
       return health.state != HealthState::Ok;
     });
-    return health;
-  };
-  SUBCASE("a measurement") {
-    fixture.tamper("UPDATE measurements SET comment = 'x' WHERE id = 2500");
-    CHECK(health_after_a_pass().reason.find("measurement 2500 ") != std::string::npos);
-  }
-  SUBCASE("a table") {
-    fixture.tamper("UPDATE table_cells SET value_nm = 22");
-    CHECK(health_after_a_pass().reason.find("table revision 1-") != std::string::npos);
-  }
-  SUBCASE("a sealed row") {
-    fixture.tamper("UPDATE table_revisions SET source = 'x'");
-    CHECK(health_after_a_pass().reason.find("table_revisions") != std::string::npos);
+    CHECK(health.reason.find(named) != std::string::npos);
   }
 }

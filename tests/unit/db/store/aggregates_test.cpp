@@ -4,21 +4,6 @@ using namespace fitgauge;
 using namespace fitgauge::store;
 using namespace fitgauge::store::test;
 
-namespace {
-
-/// Runs `work` on the stores of the writer, which can read too.
-template <class Work>
-void with_stores(Fixture& fixture, Work work) {
-  REQUIRE(fixture
-              .write([&](Stores& stores) -> Result<bool> {
-                work(stores);
-                return true;
-              })
-              .has_value());
-}
-
-}  // namespace
-
 TEST_CASE("tokens are long, random and start with fg_") {
   const std::string token = new_token();
   CHECK(token.size() == 67);
@@ -28,7 +13,7 @@ TEST_CASE("tokens are long, random and start with fg_") {
 
 TEST_CASE("API keys are created, found by token, listed and revoked") {
   Fixture fixture;
-  with_stores(fixture, [](Stores& stores) {
+  fixture.change([](Stores& stores) {
     KeysStore& keys = stores.keys;
     const std::string token = new_token();
     const auto created = keys.create("press-3", Role::Operator, token, 5);
@@ -61,7 +46,7 @@ TEST_CASE("API keys are created, found by token, listed and revoked") {
 TEST_CASE("control files keep their case, compare without it, and keep what they replace") {
   Fixture fixture;
   std::int64_t replaced = 0;
-  with_stores(fixture, [&replaced](Stores& stores) {
+  fixture.change([&replaced](Stores& stores) {
     FilesStore& files = stores.files;
     const std::string binary("\0\xFF\r\n", 4);
     const auto first = files.put({.path = "nc_prog\\8255\\8255.h",
@@ -75,10 +60,9 @@ TEST_CASE("control files keep their case, compare without it, and keep what they
     CHECK(files.put({.path = "nc_prog\\empty.h", .content = ""}).created);
     CHECK(files.put({.path = "other.h", .content = "x"}).created);
 
-    const auto found = files.find("nc_Prog\\8255\\8255.h");
-    REQUIRE(found.has_value());
-    CHECK(found->content == binary);
-    CHECK(found->path == "NC_PROG\\8255\\8255.H");
+    const auto found = files.find("nc_Prog\\8255\\8255.h").value();
+    CHECK(found.content == binary);
+    CHECK(found.path == "NC_PROG\\8255\\8255.H");
     CHECK(files.find("nc_prog\\empty.h")->content.empty());
     CHECK_FALSE(files.find("nc_prog").has_value());
 
@@ -103,7 +87,7 @@ TEST_CASE("of a file that is written over and over the newest revisions are kept
   Fixture fixture;
   const std::string revisions = "SELECT count(*) FROM file_revisions WHERE path_key = ";
   std::int64_t newest = 0;
-  with_stores(fixture, [&newest](Stores& stores) {
+  fixture.change([&newest](Stores& stores) {
     stores.files.put({.path = "other.h", .content = "x"});
     for (int i = 0; i < 30; ++i)
       newest = stores.files.put({.path = "a.h", .content = "x"}).revision;
@@ -111,14 +95,14 @@ TEST_CASE("of a file that is written over and over the newest revisions are kept
   CHECK(fixture.query_integer(revisions + "'A.H'") == 20);
   CHECK(fixture.query_integer(revisions + "'A.H' AND revision > " + std::to_string(newest - 20)) ==
         20);
-  with_stores(fixture, [](Stores& stores) { CHECK(stores.files.remove("a.h", 1, std::nullopt)); });
+  fixture.change([](Stores& stores) { CHECK(stores.files.remove("a.h", 1, std::nullopt)); });
   CHECK(fixture.query_integer(revisions + "'A.H'") == 20);
   CHECK(fixture.query_integer(revisions + "'OTHER.H'") == 1);
 }
 
 TEST_CASE("documents are stored by kind and name") {
   Fixture fixture;
-  with_stores(fixture, [](Stores& stores) {
+  fixture.change([](Stores& stores) {
     DocumentsStore& documents = stores.documents;
     const auto gauge = DocumentKind::GaugeInUse;
     CHECK(documents.put({.kind = gauge, .name = "G-07", .text = "{}"}));
@@ -139,7 +123,7 @@ TEST_CASE("documents are stored by kind and name") {
 
 TEST_CASE("a run goes from queued to finished and leaves files and a trace") {
   Fixture fixture;
-  with_stores(fixture, [](Stores& stores) {
+  fixture.change([](Stores& stores) {
     RunsStore& runs = stores.runs;
     const std::int64_t id = runs.create(
         {.program = "TNC:\\a.h", .request = "{}", .created_at = {1}, .caller = "press-3"});
@@ -168,7 +152,7 @@ TEST_CASE("a run goes from queued to finished and leaves files and a trace") {
 
 TEST_CASE("runs are listed newest first, filtered, in pages, and purged when old") {
   Fixture fixture;
-  with_stores(fixture, [](Stores& stores) {
+  fixture.change([](Stores& stores) {
     RunsStore& runs = stores.runs;
     for (int i = 1; i <= 5; ++i) {
       const std::int64_t id =
@@ -197,7 +181,7 @@ TEST_CASE("runs are listed newest first, filtered, in pages, and purged when old
 
 TEST_CASE("events are replayed from an id and only the newest are kept") {
   Fixture fixture;
-  with_stores(fixture, [](Stores& stores) {
+  fixture.change([](Stores& stores) {
     EventsStore& events = stores.events;
     CHECK(events.kept().newest == 0);
     for (int i = 1; i <= 10; ++i) {
@@ -221,18 +205,18 @@ TEST_CASE("events are replayed from an id and only the newest are kept") {
 
 TEST_CASE("what has expired is tidied away when the writer is idle") {
   Fixture fixture;
-  fixture.database.reset();
-  fixture.options.event_retention = 3;
-  fixture.options.run_retention = std::chrono::hours(1);
-  fixture.open();
-  with_stores(fixture, [&](Stores& stores) {
+  fixture.reopen([](OpenOptions& options) {
+    options.event_retention = 3;
+    options.run_retention = std::chrono::hours(1);
+  });
+  fixture.change([&](Stores& stores) {
     const std::int64_t id = stores.runs.create({.program = "p", .request = "{}"});
     REQUIRE(stores.runs.finish(id, {}, 1).has_value());
     for (int i = 0; i < 10; ++i) stores.events.append("run.finished", "", 1);
   });
   REQUIRE(fixture.append(fixture.clock.row()).has_value());
   const auto left = [&] {
-    return *fixture.read([](const Stores& stores) -> Result<std::size_t> {
+    return fixture.see([](const Stores& stores) {
       return stores.runs.list({}, std::nullopt, 10).runs.size() + stores.events.after(0, 99).size();
     });
   };

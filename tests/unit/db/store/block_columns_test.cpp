@@ -58,10 +58,9 @@ TEST_CASE("the columns of a block come back as they were") {
   std::mt19937_64 random(7);
   for (const std::int64_t spread : {std::int64_t{0}, std::int64_t{700}, kGreatest / 64 / 100}) {
     const std::vector<Row> rows = any_rows(random, spread);
-    const auto bytes = encoded(rows);
-    REQUIRE(bytes);
+    const auto bytes = encoded(rows).value();
     BlockColumns block;
-    REQUIRE(block.read(*bytes));
+    REQUIRE(block.read(bytes));
     for (std::size_t i = 0; i < kBlockRows; ++i) {
       const std::size_t kind = block.kind_of_row(i);
       REQUIRE(block.kind(kind) == rows[i].kind);

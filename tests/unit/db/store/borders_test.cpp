@@ -43,9 +43,9 @@ TEST_CASE("a completion that throws ends neither the reader nor the writer") {
 TEST_CASE("a listener of commits that throws does not end the writer") {
   count_bugs();
   Fixture fixture;
-  fixture.database.reset();
-  fixture.options.committed = [] { throw std::logic_error("a listener's bug"); };
-  fixture.open();
+  fixture.reopen([&](OpenOptions& options) {
+    options.committed = [] { throw std::logic_error("a listener's bug"); };
+  });
   CHECK(fixture.append(sample_row()).has_value());
   CHECK(fixture.append(sample_row()).has_value());
   fixture.database->drain();

@@ -1,36 +1,18 @@
 #pragma once
 
-#include <stdlib.h>
-
 #include <doctest/doctest.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "db/store/canonical_digest.hpp"
 #include "db/store/database.hpp"
 #include "db/store/measurement_row.hpp"
 #include "engine.hpp"
+#include "support/files.hpp"
 
 namespace fitgauge::store::test {
 
-/// An empty directory that goes with the test.
-class TempDirectory {
- public:
-  TempDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "fitgauge-store-XXXXXX").string();
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path_ = name;
-  }
-  TempDirectory(const TempDirectory&) = delete;
-  TempDirectory& operator=(const TempDirectory&) = delete;
-  ~TempDirectory() { std::filesystem::remove_all(path_); }
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path file() const { return path_ / "fitgauge.db"; }
-
- private:
-  std::filesystem::path path_;
+/// The directory of a test.
+struct TempDirectory : TemporaryFolder {
+  std::filesystem::path file() const { return path() / "fitgauge.db"; }
 };
 
 /// A clock that stands still until it is moved.
@@ -44,16 +26,6 @@ class ManualClock final : public Clock {
  private:
   std::atomic<std::int64_t> now_ = 1'795'000'000'000'000'000;
 };
-
-inline std::string content_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-inline void write_file(const std::filesystem::path& file, std::string_view content) {
-  std::ofstream(file, std::ios::binary)
-      .write(content.data(), static_cast<std::streamsize>(content.size()));
-}
 
 /// A good part: a hole of 25 H7 with 25.013 mm.
 inline MeasurementRow sample_row() {
@@ -132,10 +104,13 @@ struct Fixture {
     open();
   }
 
-  void open() {
-    auto opened = open_database(options, clock);
-    REQUIRE_MESSAGE(opened.has_value(), (opened ? "" : opened.error().message));
-    database = *std::move(opened);
+  void open() { database = open_database(options, clock).value(); }
+  /// Closes the database, changes `options` and opens it again.
+  template <class Change>
+  void reopen(const Change& change) {
+    database.reset();
+    change(options);
+    open();
   }
 
   /// Runs a write job and waits.
@@ -147,6 +122,20 @@ struct Fixture {
   auto read(Work work) {
     return database->readers().wait(std::move(work));
   }
+  /// Runs `work` on the stores of the writer, which can read too.
+  template <class Work>
+  void change(const Work& work) {
+    write([&](Stores& stores) -> Result<bool> {
+      work(stores);
+      return true;
+    }).value();
+  }
+  /// What `work` returns of the stores.
+  template <class Work>
+  auto see(const Work& work) {
+    using Seen = std::remove_cvref_t<decltype(work(std::declval<const Stores&>()))>;
+    return read([&](const Stores& stores) -> Result<Seen> { return work(stores); }).value();
+  }
 
   Result<IdRange> append(std::span<const MeasurementRow> rows) {
     return write([rows](Stores& stores) { return append_numbered(stores, rows); });
@@ -154,8 +143,25 @@ struct Fixture {
   Result<IdRange> append(const MeasurementRow& row) { return append(std::span(&row, 1)); }
 
   std::int64_t last_id() {
-    return *read(
-        [](const Stores& stores) -> Result<std::int64_t> { return stores.measurements.last_id(); });
+    return see([](const Stores& stores) { return stores.measurements.last_id(); });
+  }
+
+  /// @returns whether there may be more to index.
+  bool index_step() {
+    return *write([](Stores& stores) -> Result<bool> { return stores.measurements.index_step(); });
+  }
+  void index_all() {
+    while (index_step()) {
+    }
+  }
+
+  /// Stores tables of one cell.
+  Result<TableRevision> import_it7(std::int64_t value_nm,
+                                   std::optional<std::int64_t> parent = std::nullopt) {
+    return write([&](Stores& stores) {
+      return stores.tables.import({.content = it7(value_nm), .source = "test", .parent = parent},
+                                  1);
+    });
   }
 
   /// The ids a filter finds, read page by page.
@@ -163,7 +169,7 @@ struct Fixture {
     std::vector<std::int64_t> ids;
     std::optional<std::int64_t> after = 0;
     while (after) {
-      after = *read([&](const Stores& stores) -> Result<std::optional<std::int64_t>> {
+      after = see([&](const Stores& stores) {
         return stores.measurements.list(filter, *after, page,
                                         [&](const MeasurementRow& row) { ids.push_back(row.id); });
       });

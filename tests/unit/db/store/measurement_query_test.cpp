@@ -41,7 +41,7 @@ std::int64_t count_of(const SummaryGroup& group, Verdict verdict) {
 }
 
 std::string found_summary(Fixture& fixture, const MeasurementFilter& filter, TextField group_by) {
-  return *fixture.read([&](const Stores& stores) -> Result<std::string> {
+  return fixture.see([&](const Stores& stores) {
     std::string text;
     for (const SummaryGroup& group : *stores.measurements.summary(filter, group_by)) {
       text += fmt::format("{}:{}x {}r {}..{} mean {:.3f}\n", group.value.value_or("none"),
@@ -58,7 +58,7 @@ std::vector<std::int64_t> newest_first(Fixture& fixture, const MeasurementFilter
   std::vector<std::int64_t> ids;
   std::optional<std::int64_t> after = 0;
   while (after) {
-    after = *fixture.read([&](const Stores& stores) -> Result<std::optional<std::int64_t>> {
+    after = fixture.see([&](const Stores& stores) {
       return stores.measurements.list(
           filter, *after, page, [&](const MeasurementRow& row) { ids.push_back(row.id); },
           ListOrder::NewestFirst);
@@ -70,18 +70,17 @@ std::vector<std::int64_t> newest_first(Fixture& fixture, const MeasurementFilter
 /// The rows a filter finds as figures read them, page by page, against those that lists give.
 void check_values(Fixture& fixture, const MeasurementFilter& filter, std::size_t page) {
   std::vector<std::string> expected;
-  fixture.read([&](const Stores& stores) -> Result<bool> {
-    stores.measurements.list(filter, 0, 1'000'000, [&](const MeasurementRow& row) {
+  fixture.see([&](const Stores& stores) {
+    return stores.measurements.list(filter, 0, 1'000'000, [&](const MeasurementRow& row) {
       expected.push_back(fmt::format("{} {} {} {} {}", row.id, row.measured_nm,
                                      row.lower_limit_nm(), row.upper_limit_nm(),
                                      row.subgroup.value_or("none")));
     });
-    return true;
   });
   std::vector<std::string> found;
   std::optional<std::int64_t> after = 0;
   while (after) {
-    after = *fixture.read([&](const Stores& stores) -> Result<std::optional<std::int64_t>> {
+    after = fixture.see([&](const Stores& stores) {
       std::size_t taken = 0;
       const auto next =
           stores.measurements.list_values(filter, *after, page, [&](const MeasuredRun& run) {
@@ -99,11 +98,6 @@ void check_values(Fixture& fixture, const MeasurementFilter& filter, std::size_t
   CHECK(found == expected);
 }
 
-bool index_step(Fixture& fixture) {
-  return *fixture.write(
-      [](Stores& stores) -> Result<bool> { return stores.measurements.index_step(); });
-}
-
 void check_filters(Fixture& fixture, const Sample& sample, std::mt19937& random, int count) {
   for (int i = 0; i < count; ++i) {
     const MeasurementFilter filter = any_filter(random, sample.rows.size());
@@ -111,10 +105,8 @@ void check_filters(Fixture& fixture, const Sample& sample, std::mt19937& random,
     CHECK(fixture.list(filter, 1 + random() % 2000) == expected);
     check_values(fixture, filter, 1 + random() % 2000);
     const std::size_t last = 1 + random() % 50;
-    const auto first =
-        *fixture.read([&](const Stores& stores) -> Result<std::optional<std::int64_t>> {
-          return stores.measurements.first_of_newest(filter, last);
-        });
+    const auto first = fixture.see(
+        [&](const Stores& stores) { return stores.measurements.first_of_newest(filter, last); });
     CHECK(first.value_or(0) ==
           (expected.empty() ? 0 : expected[expected.size() - std::min(last, expected.size())]));
     std::reverse(expected.begin(), expected.end());
@@ -143,8 +135,7 @@ TEST_CASE("a filter finds the same rows however many of them are indexed") {
   }
   add_notes(fixture, sample, random, 300);
   check_filters(fixture, sample, random, 60);
-  while (index_step(fixture)) {
-  }
+  fixture.index_all();
   check_filters(fixture, sample, random, 60);
   CHECK(fixture.database->verify()->findings.empty());
 }
@@ -162,29 +153,24 @@ TEST_CASE("of corrections that were made apart the one received last stands, ind
   }
   std::int64_t number = 0;
   const auto append = [&](std::size_t begin, std::size_t end) {
-    REQUIRE(fixture
-                .write([&](Stores& stores) -> Result<bool> {
-                  if (number == 0) number = stores.origins.add("5f0c9a3e77d21b40");
-                  std::vector<MeasurementRow> rows;
-                  for (std::size_t i = begin; i < end; ++i) {
-                    MeasurementRow& row = rows.emplace_back(sample.rows[i]);
-                    row.id = static_cast<std::int64_t>(i) + 1;
-                    row.hash = hash_of(row);
-                    row.origin = number;
-                    row.seq = row.id;
-                  }
-                  stores.measurements.append_forwarded(rows);
-                  return true;
-                })
-                .has_value());
+    fixture.change([&](Stores& stores) {
+      if (number == 0) number = stores.origins.add("5f0c9a3e77d21b40");
+      std::vector<MeasurementRow> rows;
+      for (std::size_t i = begin; i < end; ++i) {
+        MeasurementRow& row = rows.emplace_back(sample.rows[i]);
+        row.id = static_cast<std::int64_t>(i) + 1;
+        row.hash = hash_of(row);
+        row.origin = number;
+        row.seq = row.id;
+      }
+      stores.measurements.append_forwarded(rows);
+    });
   };
   append(0, 2500);
-  while (index_step(fixture)) {
-  }
+  fixture.index_all();
   append(2500, sample.rows.size());  // makes what is indexed stale
   check_filters(fixture, sample, random, 40);
-  while (index_step(fixture)) {
-  }
+  fixture.index_all();
   check_filters(fixture, sample, random, 40);
   for (std::size_t i = 0; i < sample.rows.size(); ++i) {
     const auto id = static_cast<std::int64_t>(i) + 1;
@@ -193,11 +179,10 @@ TEST_CASE("of corrections that were made apart the one received last stands, ind
     const auto stands = std::max_element(first, last, [&](const auto& a, const auto& b) {
       return sample.moment(a.second) < sample.moment(b.second);
     });
-    const auto found =
-        *fixture.read([&](const Stores& stores) -> Result<std::pair<std::int64_t, bool>> {
-          return std::pair(stores.measurements.corrected_by(id).value_or(0),
-                           stores.measurements.has_rivals(id));
-        });
+    const auto found = fixture.see([&](const Stores& stores) {
+      return std::pair(stores.measurements.corrected_by(id).value_or(0),
+                       stores.measurements.has_rivals(id));
+    });
     CHECK(found.first == static_cast<std::int64_t>(stands->second) + 1);
     CHECK(found.second == (std::distance(first, last) > 1));
   }
@@ -215,8 +200,7 @@ TEST_CASE("summaries add nodes of every level, and mend those with a corrected r
     row.measured_at_ns = row.received_at_ns = static_cast<std::int64_t>(i);
   }
   REQUIRE(fixture.append(sample.rows).has_value());
-  while (index_step(fixture)) {
-  }
+  fixture.index_all();
   const auto nodes = [&](const char* condition) {
     return fixture.query_integer(
         fmt::format("SELECT count(*) FROM measurement_nodes WHERE {}", condition));
@@ -236,8 +220,7 @@ TEST_CASE("summaries add nodes of every level, and mend those with a corrected r
     sample.correct(corrected, sample.rows.size() - 1);
   }
   check_filters(fixture, sample, random, 5);
-  while (index_step(fixture)) {
-  }
+  fixture.index_all();
   CHECK(nodes("stale = 1") == 0);
   check_filters(fixture, sample, random, 5);
   CHECK(fixture.database->verify()->findings.empty());
@@ -250,8 +233,7 @@ TEST_CASE("a field with many values has groups of its own where a summary can sh
   std::vector<MeasurementRow> rows(33'000, sample_row());
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].order = texts[i % texts.size()];
   REQUIRE(fixture.append(rows).has_value());
-  while (index_step(fixture)) {
-  }
+  fixture.index_all();
   const auto count = [&](const char* where) {
     return fixture.query_integer(
         fmt::format("SELECT count(*) FROM measurement_aggregates WHERE {}", where));
@@ -287,8 +269,7 @@ TEST_CASE("the writer indexes whole blocks when it is idle") {
     return fixture.query_integer("SELECT count(*) FROM measurement_nodes");
   };
   while (blocks() < 2) std::this_thread::yield();
-  CHECK_FALSE(*fixture.write(
-      [](Stores& stores) -> Result<bool> { return stores.measurements.index_step(); }));
+  CHECK_FALSE(fixture.index_step());
 }
 
 TEST_CASE("a summary groups by the values of a field") {

@@ -76,23 +76,16 @@ MeasurementFilter with_texts(const std::vector<std::pair<TextField, std::string>
   return filter;
 }
 
-void import_tables(Fixture& fixture) {
-  const TableImport tables{.content = it7(21'000), .source = "test"};
-  REQUIRE(
-      fixture.write([&](Stores& stores) { return stores.tables.import(tables, 1); }).has_value());
-}
-
 }  // namespace
 
 TEST_CASE("a measurement is read as it was written") {
   Fixture fixture;
-  import_tables(fixture);
+  REQUIRE(fixture.import_it7(21'000).has_value());
   REQUIRE(fixture.append(sample_row()).has_value());
-  const auto ids = fixture.append(full_row());
-  REQUIRE_MESSAGE(ids.has_value(), (ids ? "" : ids.error().message));
-  CHECK(ids->first == 2);
+  const auto ids = fixture.append(full_row()).value();
+  CHECK(ids.first == 2);
   const auto read = [&](std::int64_t id) {
-    return *fixture.read([id](const Stores& stores) -> Result<std::string> {
+    return fixture.see([id](const Stores& stores) {
       std::string text;
       CHECK(stores.measurements.find(id, [&](const MeasurementRow& row) {
         CHECK(row.id == id);
@@ -103,7 +96,7 @@ TEST_CASE("a measurement is read as it was written") {
   };
   CHECK(read(1) == text_of(sample_row()));
   CHECK(read(2) == text_of(full_row()));
-  CHECK_FALSE(*fixture.read([](const Stores& stores) -> Result<bool> {
+  CHECK_FALSE(fixture.see([](const Stores& stores) {
     return stores.measurements.find(3, [](const MeasurementRow&) {});
   }));
 }
@@ -114,11 +107,10 @@ TEST_CASE("batches of any size are stored whole, in order") {
   for (const std::size_t size : {1U, 31U, 32U, 33U, 64U, 100U, 0U, 5U}) {
     std::vector<MeasurementRow> rows(size, sample_row());
     for (std::size_t i = 0; i < size; ++i) rows[i].measured_nm += static_cast<std::int64_t>(i);
-    const auto ids = fixture.append(rows);
-    REQUIRE(ids.has_value());
-    CHECK(ids->first == expected);
+    const auto ids = fixture.append(rows).value();
+    CHECK(ids.first == expected);
     expected += static_cast<std::int64_t>(size);
-    CHECK(ids->last == expected - 1);
+    CHECK(ids.last == expected - 1);
   }
   CHECK(fixture.list({}, 7).size() == static_cast<std::size_t>(expected - 1));
 }
@@ -190,7 +182,7 @@ TEST_CASE("a page that ends at the last row has no next one") {
   Fixture fixture;
   REQUIRE(fixture.append(std::vector<MeasurementRow>(4, sample_row())).has_value());
   const auto next = [&](std::int64_t after, std::size_t limit) {
-    return *fixture.read([&](const Stores& stores) -> Result<std::optional<std::int64_t>> {
+    return fixture.see([&](const Stores& stores) {
       return stores.measurements.list({}, after, limit, [](const MeasurementRow&) {});
     });
   };
@@ -218,9 +210,7 @@ TEST_CASE("a correction replaces the current row and keeps the old one") {
   correction.correction_of = 3;
   REQUIRE(fixture.append(correction)->first == 4);
   CHECK(fixture.list({}) == std::vector<std::int64_t>{2, 4});
-  CHECK(*fixture.read([](const Stores& stores) -> Result<std::optional<std::int64_t>> {
-    return stores.measurements.corrected_by(3);
-  }) == 4);
+  CHECK(fixture.see([](const Stores& stores) { return stores.measurements.corrected_by(3); }) == 4);
 }
 
 TEST_CASE("rows that each fill other fields are stored as they are") {
@@ -238,11 +228,10 @@ TEST_CASE("rows that each fill other fields are stored as they are") {
     rows.push_back(row);
     REQUIRE(fixture.append(row).has_value());
   }
-  static_cast<void>(fixture.read([&](const Stores& stores) -> Result<bool> {
-    stores.measurements.list({}, 0, rows.size(), [&](const MeasurementRow& row) {
+  fixture.see([&](const Stores& stores) {
+    return stores.measurements.list({}, 0, rows.size(), [&](const MeasurementRow& row) {
       CHECK(text_of(row) == text_of(rows[static_cast<std::size_t>(row.id - 1)]));
     });
-    return true;
-  }));
+  });
   CHECK(fixture.database->verify()->findings.empty());
 }

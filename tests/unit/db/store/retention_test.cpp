@@ -15,20 +15,16 @@ namespace {
 struct Retained : Fixture {
   /// The writer of the service stores its state once, before the test begins.
   Retained() {
-    database.reset();
-    options.steady_time = [begin = clock.now()] { return SteadyTime{.time = begin, .held = 0s}; };
-    open();
+    reopen([&](OpenOptions& changed) {
+      changed.steady_time = [begin = clock.now()] { return SteadyTime{.time = begin, .held = 0s}; };
+    });
     const auto is_kept = [this] {
-      return *read([](const Stores& stores) -> Result<bool> {
+      return see([](const Stores& stores) {
         return stores.log.mark(LogStore::Mark::Retention).has_value();
       });
     };
     while (!is_kept()) std::this_thread::yield();
-    const auto cleared = write([](Stores& stores) -> Result<bool> {
-      stores.log.set_mark(LogStore::Mark::Retention, "0 0 0 0");
-      return true;
-    });
-    REQUIRE(cleared.has_value());
+    change([](Stores& stores) { stores.log.set_mark(LogStore::Mark::Retention, "0 0 0 0"); });
   }
   /// The time that things expire by.
   std::optional<Timestamp> look() {

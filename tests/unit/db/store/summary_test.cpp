@@ -65,9 +65,7 @@ struct Shop : Fixture {
       row.unit = "mm";
       if (i > 5'000 && i < 30'000) row.caller.reset();
     }
-    write([](Stores& stores) {
-      return stores.tables.import({.content = it7(21), .source = "test"}, 1);
-    });
+    REQUIRE(import_it7(21).has_value());
     sample.add_corrections(random, 40);
     append_from(0);
   }
@@ -102,11 +100,7 @@ struct Shop : Fixture {
   }
 
   void index(std::int64_t most_steps) {
-    const auto step = [&] {
-      return *write(
-          [](Stores& stores) -> Result<bool> { return stores.measurements.index_step(); });
-    };
-    while (most_steps-- > 0 && step()) {
+    while (most_steps-- > 0 && index_step()) {
     }
   }
 
