@@ -46,10 +46,7 @@ class RecordingAxes final : public Axes {
 
 struct Bench {
   Bench() : control(MachineSetup{}, std::unique_ptr<Axes>(axes)) {
-    ToolCall call;
-    call.number = 30;
-    call.axis = Axis::Z;
-    REQUIRE(control.call_tool(call).has_value());
+    REQUIRE(control.call_tool({.number = 30, .axis = Axis::Z, .spindle_rpm = {}}).has_value());
   }
   RecordingAxes* axes = new RecordingAxes;  // the control's
   Machine control;

@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "nc/machine/simulated_machine.hpp"
-#include "unit/nc/machine/machine_check.hpp"
+#include "unit/nc/machine/machine_bench.hpp"
 
 using namespace fitgauge::machine;
 
@@ -20,10 +19,8 @@ std::string refused_field(const Setup& setup) {
 
 /// Where a probing move straight down at X, Y touches.
 Vec3 touch(Machine& machine, double x, double y) {
-  REQUIRE(ok(machine.call_tool({.number = 30, .axis = Axis::Z, .spindle_rpm = {}})));
-  REQUIRE(ok(machine.move({AxisWords::linear({x, y, 90}), {}})));
-  const auto contact =
-      machine.probe({{0, 0, -1}, 40, 500, CoordinateSystem::Input, std::nullopt, {}});
+  REQUIRE(ok(machine.move(to({x, y, 90}))));
+  const auto contact = machine.probe(towards({0, 0, -1}, 40));
   REQUIRE(ok(contact));
   return contact->tip;
 }
@@ -33,7 +30,7 @@ Vec3 touch(Machine& machine, double x, double y) {
 TEST_CASE("the calibration sphere stands on the table beside the workpiece") {
   Setup setup = with_sphere({{100, 20, 50}, 15});
   setup.features = {Block{{-50, -50, 0}, {50, 50, 60}}};
-  SimulatedMachine machine(setup);
+  MachineWithProbe machine(setup);
   CHECK(near(touch(machine, 100, 20).z, 65));
   CHECK(near(touch(machine, 0, 0).z, 60));
 }
@@ -41,10 +38,8 @@ TEST_CASE("the calibration sphere stands on the table beside the workpiece") {
 TEST_CASE("the calibration sphere turns with the table") {
   Setup setup = with_sphere({{100, 0, 50}, 15});
   setup.machine.axes[index(Axis::C)] = AxisSetup::of(Axis::C);
-  SimulatedMachine machine(setup);
-  AxisWords quarter;
-  quarter[Axis::C] = 90;
-  REQUIRE(ok(machine.move({quarter, {}})));
+  MachineWithProbe machine(setup);
+  machine.turn(Axis::C, 90);
   CHECK(near(touch(machine, 0, -100).z, 65));
 }
 

@@ -1,8 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "nc/machine/simulated_machine.hpp"
-#include "unit/nc/machine/machine_check.hpp"
-#include "unit/nc/machine/vec_check.hpp"
+#include "unit/nc/machine/machine_bench.hpp"
 
 using namespace fitgauge::machine;
 
@@ -17,19 +15,9 @@ Setup head_setup() {
   return setup;
 }
 
-void call_probe(Machine& machine) {
-  REQUIRE(ok(machine.call_tool({.number = 30, .axis = Axis::Z, .spindle_rpm = {}})));
-}
-
-void turn(Machine& machine, double b) {
-  AxisWords words;
-  words[Axis::B] = b;
-  REQUIRE(ok(machine.move({words, {}})));
-}
-
 /// The height at which the control sees the ball's centre when it touches straight down.
 double touched_height(Machine& machine) {
-  REQUIRE(ok(machine.move({AxisWords::linear({0, 0, 10}), {}, CoordinateSystem::Machine})));
+  REQUIRE(ok(machine.move(to({0, 0, 10}, CoordinateSystem::Machine))));
   const auto contact =
       machine.probe({{0, 0, -1}, 20, 500, CoordinateSystem::Machine, std::nullopt, {}});
   REQUIRE(ok(contact));
@@ -52,22 +40,20 @@ TEST_CASE("the axis of a head that lies elsewhere than modelled moves the ball")
   setup.machine.axes[index(Axis::B)]->centre = {5, 6, 7};  // means nothing in a head
   constexpr double kError = 0.02;
   setup.machine.axes[index(Axis::B)]->centre_error = {0, 0, kError};
-  SimulatedMachine machine(setup);
-  call_probe(machine);
+  MachineWithProbe machine(setup);
   CHECK(near(touched_height(machine), 2));
-  turn(machine, 60);
+  machine.turn(Axis::B, 60);
   CHECK(near(touched_height(machine), 2 - kError / 2));
 }
 
 TEST_CASE("the offset of the kinematic model moves every coordinate of the tool") {
-  SimulatedMachine machine(head_setup());
-  call_probe(machine);
+  MachineWithProbe machine(head_setup());
   const Vec3 tip = machine.position().linear;
   const Kinematics shifted(machine.state().kinematics.axes(), {1, -2, 0.5});
   REQUIRE(ok(machine.set_kinematics(shifted)));
   check_near(machine.position().linear, tip + Vec3{1, -2, 0.5});
   CHECK(near(touched_height(machine), 2.5));
-  turn(machine, 60);
+  machine.turn(Axis::B, 60);
   CHECK(near(touched_height(machine), 2.5));
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   CHECK(fault_of(machine.set_kinematics(Kinematics(shifted.axes(), {kNan, 0, 0}))) ==

@@ -1,14 +1,11 @@
 #include <doctest/doctest.h>
 
 #include "unit/nc/machine/machine_bench.hpp"
-#include "unit/nc/machine/machine_check.hpp"
 
 using namespace fitgauge::machine;
 
 TEST_CASE("a bore is probed in four directions") {
-  SimulatedMachine machine(bore_setup());
-  REQUIRE(ok(machine.call_tool(probe_call())));
-  REQUIRE(ok(machine.move(to({50, 40, 50}))));
+  MachineWithProbe machine(bore_setup(), {50, 40, 50});
   REQUIRE(ok(machine.move(to({50, 40, -12}))));  // the ball's centre at -10
   for (const Vec3 direction : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{-1, 0, 0}, Vec3{0, -1, 0}}) {
     const auto contact = machine.probe(towards(direction));
@@ -25,8 +22,7 @@ TEST_CASE("a bore is probed in four directions") {
 TEST_CASE("contacts are the same in shifted, rotated and mirrored coordinates") {
   Setup setup = bore_setup();
   setup.machine.presets[0].frame = {{50, 40, -10}, {0, 0, 30}, {}};
-  SimulatedMachine machine(setup);
-  REQUIRE(ok(machine.call_tool(probe_call())));
+  MachineWithProbe machine(setup);
   Frames frames = machine.state().frames;
   frames.set_datum_shift({{0, 0, 3}, {}});
   frames.set_mirror({true, false, false});
@@ -38,45 +34,36 @@ TEST_CASE("contacts are the same in shifted, rotated and mirrored coordinates") 
 }
 
 TEST_CASE("a probing move that meets nothing, or meets at once, is a fault") {
-  SimulatedMachine machine(bore_setup());
-  REQUIRE(ok(machine.call_tool(probe_call())));
-  REQUIRE(ok(machine.move(to({50, 40, -12}))));
+  MachineWithProbe machine(bore_setup(), {50, 40, -12});
   const auto missed = machine.probe(towards({1, 0, 0}, 10));
   CHECK(fault_of(missed) == FaultKind::NoContact);
   CHECK(missed.error().number == 1014);
   check_near(machine.position().linear, {60, 40, -12});
   Setup setup = bore_setup();
   setup.machine.start = AxisWords::linear({50, 40, 117.5});
-  SimulatedMachine deflected(setup);
-  REQUIRE(ok(deflected.call_tool(probe_call())));
+  MachineWithProbe deflected(setup);
   check_near(deflected.position().linear, {50, 40, -2.5});
   REQUIRE(ok(deflected.probe(towards({1, 0, 0}))));
   Setup inside = setup;
   inside.machine.start = AxisWords::linear({20, 20, 121.5});
-  SimulatedMachine touching(inside);
-  REQUIRE(ok(touching.call_tool(probe_call())));
+  MachineWithProbe touching(inside);
   REQUIRE(ok(touching.probe(towards({0, 0, -1}))));
   inside.machine.start = AxisWords::linear({20, 20, 119.5});
-  SimulatedMachine overlapping(inside);
-  REQUIRE(ok(overlapping.call_tool(probe_call())));
+  MachineWithProbe overlapping(inside);
   CHECK(fault_of(overlapping.probe(towards({0, 0, -1}))) == FaultKind::StylusDeflected);
 }
 
 TEST_CASE("pretravel lengthens every contact, repeatability scatters it by its seed") {
   Setup setup = bore_setup();
   setup.machine.probes[0].pretravel_um = 3;
-  SimulatedMachine late(setup);
-  REQUIRE(ok(late.call_tool(probe_call())));
-  REQUIRE(ok(late.move(to({50, 40, -12}))));
+  MachineWithProbe late(setup, {50, 40, -12});
   CHECK(near(late.probe(towards({1, 0, 0}))->ball_centre.x, 50 + 25.013 / 2 - 2 + 0.003));
 
   setup.machine.probes[0].pretravel_um = 0;
   setup.machine.probes[0].repeatability_um = 1;
   const auto contacts = [&](std::uint64_t seed) {
     setup.seed = seed;
-    SimulatedMachine machine(setup);
-    REQUIRE(ok(machine.call_tool(probe_call())));
-    REQUIRE(ok(machine.move(to({50, 40, -12}))));
+    MachineWithProbe machine(setup, {50, 40, -12});
     std::vector<double> found(500);
     for (double& x : found) x = machine.probe(towards({1, 0, 0}))->ball_centre.x;
     return found;
@@ -94,9 +81,7 @@ TEST_CASE("what the control compensates is its table, what touches is the real b
   setup.machine.tools[0].actual_radius = 2.05;
   setup.machine.tools[0].actual_length = 120.2;
   setup.machine.probes[0].centre_offset = {0.01, -0.02};
-  SimulatedMachine machine(setup);
-  REQUIRE(ok(machine.call_tool(probe_call())));
-  REQUIRE(ok(machine.move(to({20, 20, 5}))));
+  MachineWithProbe machine(setup, {20, 20, 5});
   CHECK(near(machine.probe(towards({0, 0, -1}))->tip.z, 0.2));  // 0.2 mm longer than it knows
   REQUIRE(ok(machine.move(to({50, 40, 5}))));
   REQUIRE(ok(machine.move(to({50, 40, -12}))));
@@ -116,9 +101,7 @@ TEST_CASE("the ball goes round with the spindle, and CAL_OF with it") {
   setup.machine.probes[0].centre_offset = {0.01, -0.02};
   setup.machine.probes[0].row.cal_of1 = 0.01;
   setup.machine.probes[0].row.cal_of2 = -0.02;
-  SimulatedMachine machine(setup);
-  REQUIRE(ok(machine.call_tool(probe_call())));
-  REQUIRE(ok(machine.move(to({20, 20, 5}))));
+  MachineWithProbe machine(setup, {20, 20, 5});
   const auto nose_at_contact = [&](double spindle_deg) {
     Modes modes = machine.state().modes;
     modes.spindle_deg = spindle_deg;
@@ -139,15 +122,9 @@ TEST_CASE("the ball goes round with the spindle, and CAL_OF with it") {
 TEST_CASE("the contact plate of the tool touch probe may be a cube") {
   Setup setup;
   setup.machine.tt.known.shape = ContactPlate::Cube;
-  ToolSetup mill;
-  mill.row.number = 5;
-  mill.row.l = 100;
-  mill.row.r = 6;
-  setup.machine.tools.push_back(mill);
-  SimulatedMachine machine(setup);
-  ToolCall call = probe_call();
-  call.number = 5;
-  REQUIRE(ok(machine.call_tool(call)));
+  add_cutter(setup, 100, 6);
+  MachineWithProbe machine(setup);
+  machine.call_cutter();
   const auto touch_x = [&](double y) {
     REQUIRE(ok(machine.move(to({340, y, 60}))));
     REQUIRE(ok(machine.move(to({340, y, 45}))));
@@ -160,17 +137,11 @@ TEST_CASE("the contact plate of the tool touch probe may be a cube") {
 
 TEST_CASE("a cutter is measured by the tool touch probe") {
   Setup setup;
-  ToolSetup mill;
-  mill.row.number = 5;
-  mill.row.l = 100;
-  mill.row.r = 6;
+  ToolSetup& mill = add_cutter(setup, 100, 6);
   mill.actual_length = 99.9;
   mill.actual_radius = 5.95;
-  setup.machine.tools.push_back(mill);
-  SimulatedMachine machine(setup);
-  ToolCall call = probe_call();
-  call.number = 5;
-  REQUIRE(ok(machine.call_tool(call)));
+  MachineWithProbe machine(setup);
+  machine.call_cutter();
   REQUIRE(ok(machine.move(to({300, 0, 60}))));
   CHECK(near(machine.probe(towards({0, 0, -1}))->tip.z, 49.9));  // 0.1 mm shorter than it knows
   REQUIRE(ok(machine.move(to({340, 0, 60}))));
@@ -180,9 +151,7 @@ TEST_CASE("a cutter is measured by the tool touch probe") {
 }
 
 TEST_CASE("retracting goes back by the way asked for, or to the start") {
-  SimulatedMachine machine(bore_setup());
-  REQUIRE(ok(machine.call_tool(probe_call())));
-  REQUIRE(ok(machine.move(to({50, 40, -12}))));
+  MachineWithProbe machine(bore_setup(), {50, 40, -12});
   ProbeMove move = towards({1, 0, 0});
   move.retract = 3;
   REQUIRE(ok(machine.probe(move)));

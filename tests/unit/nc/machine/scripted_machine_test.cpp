@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include "unit/nc/machine/machine_bench.hpp"
-#include "unit/nc/machine/machine_check.hpp"
 
 using namespace fitgauge::machine;
 
@@ -35,7 +34,6 @@ TEST_CASE("the contacts of a simulated run give the same run again") {
   Setup setup;
   setup.features = {Block{{-30, -30, -40}, {30, 30, 20}}, Bore{{0, 0}, 20, 40, 25.013}};
   SimulatedMachine simulated(setup);
-  simulated.call_tool({30, Axis::Z, {}, 0, 0, 0}).value();
   stand_at_origin(simulated);
   std::vector<ScriptedContact> log;
   std::vector<ContactPoint> found;

@@ -57,61 +57,44 @@ TEST_CASE("the default setup is valid and has the defaults of the contract") {
 }
 
 TEST_CASE("each bad field of the machine is named") {
-  Setup setup;
-  setup.machine.axes[0]->max = -500;
-  CHECK(refuses_only(setup, "/machine/axes/X/max_mm"));
-  setup = {};
-  setup.machine.axes[3] = AxisSetup::of(Axis::A);
-  setup.machine.axes[3]->direction = {};
-  CHECK(refuses_only(setup, "/machine/axes/A/direction"));
-  setup = {};
-  setup.machine.axes[1].reset();
-  CHECK(refuses_only(setup, "/machine/axes/Y"));
-  setup = {};
-  setup.machine.start[Axis::B] = 1;
-  CHECK(refuses_only(setup, "/machine/start_mm/B"));
-  setup = {};
-  setup.machine.start[Axis::Z] = 501;
-  CHECK(refuses_only(setup, "/machine/start_mm/Z"));
-  setup = {};
-  setup.machine.rapid_mm_min = 0;
-  CHECK(refuses_only(setup, "/machine/rapid_mm_min"));
-  setup = {};
-  setup.machine.tools.push_back(setup.machine.tools[0]);
-  CHECK(refuses_only(setup, "/machine/tools/1/number"));
-  setup = {};
-  setup.machine.tools[0].row.probe = 2;
-  CHECK(refuses_only(setup, "/machine/tools/0/probe"));
-  setup = {};
-  setup.machine.tools[0].row.r = 0;
-  CHECK(refuses_only(setup, "/machine/tools/0/radius_mm"));
-  setup = {};
-  setup.machine.probes[0].row.distance = kNan;
-  CHECK(refuses_only(setup, "/machine/probes/0/dist_mm"));
-  setup = {};
-  setup.machine.probes[0].repeatability_um = -1;
-  CHECK(refuses_only(setup, "/machine/probes/0/repeatability_um"));
-  setup = {};
-  setup.machine.active_preset = 2;
-  CHECK(refuses_only(setup, "/machine/active_preset"));
-  setup = {};
-  setup.machine.presets[0].frame.origin.y = kNan;
-  CHECK(refuses_only(setup, "/machine/presets/0/y_mm"));
-  setup = {};
-  setup.machine.tt.known.radius = 0;
-  CHECK(refuses_only(setup, "/machine/tt/radius_mm"));
-  setup = {};
-  setup.machine.tt.actual_radius = -1;
-  CHECK(refuses_only(setup, "/machine/tt/actual_radius_mm"));
-  setup = {};
-  setup.machine.tools[0].row.r_offset = kNan;
-  CHECK(refuses_only(setup, "/machine/tools/0/radius_offset_mm"));
-  setup = {};
-  setup.machine.calibration_stud = Boss{{0, 0}, 10, 0, 20};
-  CHECK(refuses_only(setup, "/machine/calibration_stud/height_mm"));
-  setup = {};
-  setup.machine.calibration_ring = CalibrationRing{{0, 0}, 0, 20, 50, 50};
-  CHECK(refuses_only(setup, "/machine/calibration_ring/outer_diameter_mm"));
+  struct Row {
+    std::string field;
+    void (*spoil)(MachineSetup& m);
+  };
+  for (const Row& row :
+       {Row{"axes/X/max_mm", [](MachineSetup& m) { m.axes[0]->max = -500; }},
+        Row{"axes/A/direction",
+            [](MachineSetup& m) {
+              m.axes[3] = AxisSetup::of(Axis::A);
+              m.axes[3]->direction = {};
+            }},
+        Row{"axes/Y", [](MachineSetup& m) { m.axes[1].reset(); }},
+        Row{"start_mm/B", [](MachineSetup& m) { m.start[Axis::B] = 1; }},
+        Row{"start_mm/Z", [](MachineSetup& m) { m.start[Axis::Z] = 501; }},
+        Row{"rapid_mm_min", [](MachineSetup& m) { m.rapid_mm_min = 0; }},
+        Row{"tools/1/number", [](MachineSetup& m) { m.tools.push_back(m.tools[0]); }},
+        Row{"tools/0/probe", [](MachineSetup& m) { m.tools[0].row.probe = 2; }},
+        Row{"tools/0/radius_mm", [](MachineSetup& m) { m.tools[0].row.r = 0; }},
+        Row{"probes/0/dist_mm", [](MachineSetup& m) { m.probes[0].row.distance = kNan; }},
+        Row{"probes/0/repeatability_um",
+            [](MachineSetup& m) { m.probes[0].repeatability_um = -1; }},
+        Row{"active_preset", [](MachineSetup& m) { m.active_preset = 2; }},
+        Row{"presets/0/y_mm", [](MachineSetup& m) { m.presets[0].frame.origin.y = kNan; }},
+        Row{"tt/radius_mm", [](MachineSetup& m) { m.tt.known.radius = 0; }},
+        Row{"tt/actual_radius_mm", [](MachineSetup& m) { m.tt.actual_radius = -1; }},
+        Row{"tools/0/radius_offset_mm", [](MachineSetup& m) { m.tools[0].row.r_offset = kNan; }},
+        Row{"calibration_stud/height_mm",
+            [](MachineSetup& m) {
+              m.calibration_stud = Boss{{0, 0}, 10, 0, 20};
+            }},
+        Row{"calibration_ring/outer_diameter_mm", [](MachineSetup& m) {
+              m.calibration_ring = CalibrationRing{{0, 0}, 0, 20, 50, 50};
+            }}}) {
+    CAPTURE(row.field);
+    Setup setup;
+    row.spoil(setup.machine);
+    CHECK(refuses_only(setup, "/machine/" + row.field));
+  }
 }
 
 TEST_CASE("each bad field of the workpiece is named") {

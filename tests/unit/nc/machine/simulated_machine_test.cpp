@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include "unit/nc/machine/machine_bench.hpp"
-#include "unit/nc/machine/machine_check.hpp"
 
 using namespace fitgauge::machine;
 
@@ -21,8 +20,7 @@ TEST_CASE("a run begins at the start with an empty spindle and the active preset
 }
 
 TEST_CASE("a tool call leaves the nose and moves the tip by the length") {
-  SimulatedMachine machine(bore_setup());
-  REQUIRE(ok(machine.call_tool(probe_call())));
+  MachineWithProbe machine(bore_setup());
   check_near(machine.position(CoordinateSystem::Reference).linear, {0, 0, 500});
   check_near(machine.position().linear, {0, 0, 380});
   check_near(machine.state().ball_centre(), {0, 0, 382});
@@ -58,28 +56,19 @@ TEST_CASE("tool calls that name no tool, no axis or a locked tool are faults") {
 
 TEST_CASE("a probe that touches on a positioning move stops there, a cutter does not") {
   Setup setup = bore_setup();
-  ToolSetup mill;
-  mill.row.number = 5;
-  mill.row.l = 120;
-  mill.row.r = 5;
-  setup.machine.tools.push_back(mill);
-  SimulatedMachine machine(setup);
-  REQUIRE(ok(machine.call_tool(probe_call())));
+  add_cutter(setup, 120, 5);
+  MachineWithProbe machine(setup);
   const auto fault = machine.move(to({20, 20, -5}));
   CHECK(fault_of(fault) == FaultKind::Collision);
   // From (0, 0, 380): the ball's centre stops one radius above the face.
   CHECK(near(machine.state().ball_centre().z, 2, 2e-6));
-  ToolCall cutter = probe_call();
-  cutter.number = 5;
-  REQUIRE(ok(machine.call_tool(cutter)));
+  machine.call_cutter();
   REQUIRE(ok(machine.move(to({20, 20, -5}))));
   check_near(machine.position().linear, {20, 20, -5});
 }
 
 TEST_CASE("a probe collides on an arc and on a turning table") {
-  SimulatedMachine machine(bore_setup());
-  REQUIRE(ok(machine.call_tool(probe_call())));
-  REQUIRE(ok(machine.move(to({58, 40, -12}))));
+  MachineWithProbe machine(bore_setup(), {58, 40, -12});
   ArcMove arc;
   arc.centre = {50, 40, 0};
   arc.end = {58, 40, -12};
@@ -93,17 +82,14 @@ TEST_CASE("a probe collides on an arc and on a turning table") {
 
   Setup setup = bore_setup();
   setup.machine.axes[index(Axis::C)] = AxisSetup::of(Axis::C);
-  SimulatedMachine turning(setup);
-  REQUIRE(ok(turning.call_tool(probe_call())));
-  REQUIRE(ok(turning.move(to({110, 40, -20}))));
+  MachineWithProbe turning(setup, {110, 40, -20});
   LinearMove turn;
   turn.target[Axis::C] = 45;
   CHECK(fault_of(turning.move(turn)) == FaultKind::Collision);
 }
 
 TEST_CASE("moves outside the axis ranges are refused before they begin") {
-  SimulatedMachine machine(bore_setup());
-  REQUIRE(ok(machine.call_tool(probe_call())));
+  MachineWithProbe machine(bore_setup());
   CHECK(fault_of(machine.move(to({501, 0, 100}))) == FaultKind::AxisLimit);
   CHECK(fault_of(machine.move(to({0, 0, 381}))) == FaultKind::AxisLimit);  // the nose at 501
   REQUIRE(ok(machine.move(to({0, 0, 380}))));
@@ -128,8 +114,7 @@ TEST_CASE("moves outside the axis ranges are refused before they begin") {
 }
 
 TEST_CASE("M91 positions the spindle nose") {
-  SimulatedMachine machine(bore_setup());
-  REQUIRE(ok(machine.call_tool(probe_call())));
+  MachineWithProbe machine(bore_setup());
   REQUIRE(ok(machine.move(to({10, 20, 300}, CoordinateSystem::Reference))));
   check_near(machine.position().linear, {10, 20, 180});
   REQUIRE(ok(machine.move(to({10, 20, 300}, CoordinateSystem::Machine))));
@@ -137,8 +122,7 @@ TEST_CASE("M91 positions the spindle nose") {
 }
 
 TEST_CASE("axes without a word keep their coordinate, also in a rotated frame") {
-  SimulatedMachine machine(bore_setup());
-  REQUIRE(ok(machine.call_tool(probe_call())));
+  MachineWithProbe machine(bore_setup());
   Frames frames = machine.state().frames;
   frames.set_rotation({30, Axis::Z});
   REQUIRE(ok(machine.set_frames(frames)));
@@ -150,8 +134,7 @@ TEST_CASE("axes without a word keep their coordinate, also in a rotated frame") 
 }
 
 TEST_CASE("time is the way over the feed") {
-  SimulatedMachine machine(bore_setup());
-  REQUIRE(ok(machine.call_tool(probe_call())));
+  MachineWithProbe machine(bore_setup());
   LinearMove move = to({30, 40, 380});
   REQUIRE(ok(machine.move(move)));  // 50 mm at 15000 mm/min
   CHECK(near(machine.state().elapsed_s, 0.2));
@@ -201,9 +184,7 @@ TEST_CASE("every tool collides with a fixture, and no value is taken from one") 
   for (const bool is_probe : {true, false}) {
     CAPTURE(is_probe);
     setup.machine.tools[0].row.probe = is_probe ? 1 : 0;
-    SimulatedMachine machine(setup);
-    REQUIRE(ok(machine.call_tool(probe_call())));
-    REQUIRE(ok(machine.move(to({60, 70, 20}))));
+    MachineWithProbe machine(setup, {60, 70, 20});
     const auto fault = machine.move(to({90, 70, 20}));
     CHECK(fault_of(fault) == FaultKind::FixtureCollision);
     CHECK(fault.error().text == "Collision with a fixture");
@@ -217,9 +198,7 @@ TEST_CASE("a fixture before the workpiece ends a probing move, one behind it doe
     CAPTURE(is_before);
     Setup setup = bore_setup();
     setup.fixtures = {is_before ? Boss{{-6, 40}, 0, 40, 4} : Boss{{50, 40}, 0, 40, 4}};
-    SimulatedMachine machine(setup);
-    REQUIRE(ok(machine.call_tool(probe_call())));
-    REQUIRE(ok(machine.move(to({-15, 40, -10}))));
+    MachineWithProbe machine(setup, {-15, 40, -10});
     const auto contact = machine.probe(towards({1, 0, 0}));
     REQUIRE(contact.has_value() != is_before);
     if (is_before) CHECK(fault_of(contact) == FaultKind::FixtureCollision);

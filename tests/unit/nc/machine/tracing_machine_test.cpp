@@ -73,10 +73,7 @@ TEST_CASE("a trace holds every move with its feed, time and contact") {
 TEST_CASE("a traced move is drawn from itself alone, also where the coordinates have changed") {
   std::vector<TracedMove> moves;
   TracingMachine machine(face_setup(), {[&](const TracedMove& move) { moves.push_back(move); }});
-  ToolCall call;
-  call.number = 30;
-  call.axis = Axis::Z;
-  CHECK(ok(machine.call_tool(call)));
+  CHECK(ok(machine.call_tool({.number = 30, .axis = Axis::Z, .spindle_rpm = {}})));
   Preset preset;
   preset.number = 4;
   preset.frame.origin = {10, 20, 5};
