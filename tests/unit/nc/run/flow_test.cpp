@@ -8,21 +8,17 @@ TEST_CASE("labels, jumps and loops") {
   const RunResult result = control.run(
       "Q1 = 0\nQ2 = 0\nLBL 1\nQ2 = Q2 + Q1\nQ1 = Q1 + 1\nFN 12: IF +Q1 LT +100 GOTO LBL 1\n"
       "FN 9: IF +Q2 EQU +4950 GOTO LBL \"done\"\nQ3 = 1\nLBL \"DONE\"");
-  CHECK(outcome(result) == "completed");
-  CHECK(value(result, "Q2") == "4950");
-  CHECK(value(result, "Q3") == "undefined");
+  check_completes(result, "Q2=4950, Q3=undefined");
   // BEGIN, two assignments, 100 passes of four blocks, FN 9, LBL, END.
   CHECK(result.blocks_executed == 3 + 400 + 3);
 }
 
 TEST_CASE("a part is run once more than REP says") {
   Control control;
-  const RunResult result = control.run(
-      "Q1 = 0\nQ2 = 0\nLBL 1\nQ1 = Q1 + 1\nLBL 2\nQ2 = Q2 + 1\nCALL LBL 2 REP 2\n"
-      "CALL LBL 1 REP 3");
-  CHECK(outcome(result) == "completed");
-  CHECK(value(result, "Q1") == "4");
-  CHECK(value(result, "Q2") == "12");
+  check_completes(
+      control.run("Q1 = 0\nQ2 = 0\nLBL 1\nQ1 = Q1 + 1\nLBL 2\nQ2 = Q2 + 1\nCALL LBL 2 REP 2\n"
+                  "CALL LBL 1 REP 3"),
+      "Q1=4, Q2=12");
 }
 
 TEST_CASE("LBL 0 within a repeated part is passed over") {
@@ -33,11 +29,11 @@ TEST_CASE("LBL 0 within a repeated part is passed over") {
 
 TEST_CASE("subprograms return to their call, also when nested and called by a parameter") {
   Control control;
-  const RunResult result = control.run(
-      "Q1 = 0\nCALL LBL 5\nQS1 = \"sub\"\nCALL LBL QS1\nQ9 = 5\nCALL LBL Q9\nL X+0 FMAX M30\n"
-      "LBL 5\nQ1 = Q1 + 1\nCALL LBL \"SUB\"\nLBL 0\nLBL \"SUB\"\nQ1 = Q1 + 10\nLBL 0");
-  CHECK(outcome(result) == "completed");
-  CHECK(value(result, "Q1") == "32");
+  check_completes(
+      control.run(
+          "Q1 = 0\nCALL LBL 5\nQS1 = \"sub\"\nCALL LBL QS1\nQ9 = 5\nCALL LBL Q9\nL X+0 FMAX M30\n"
+          "LBL 5\nQ1 = Q1 + 1\nCALL LBL \"SUB\"\nLBL 0\nLBL \"SUB\"\nQ1 = Q1 + 10\nLBL 0"),
+      "Q1=32");
 }
 
 TEST_CASE("recursion without end is an error of the control") {
@@ -51,13 +47,9 @@ TEST_CASE("recursion without end is an error of the control") {
 TEST_CASE("a called program has its own QL and shares Q") {
   Control control;
   control.program("Q1 = Q1 + 1\nQL1 = 7\nQ2 = QL1", "sub.h");
-  const RunResult result =
-      control.run("Q1 = 1\nQL1 = 3\nCALL PGM sub.h\nCALL PGM TNC:\\nc_prog\\SUB.H\nQ3 = QL1");
-  CHECK(outcome(result) == "completed");
-  CHECK(value(result, "Q1") == "3");
-  CHECK(value(result, "Q2") == "7");
-  CHECK(value(result, "Q3") == "3");
-  CHECK(value(result, "QL1") == "3");
+  check_completes(
+      control.run("Q1 = 1\nQL1 = 3\nCALL PGM sub.h\nCALL PGM TNC:\\nc_prog\\SUB.H\nQ3 = QL1"),
+      "Q1=3, Q2=7, Q3=3, QL1=3");
 }
 
 TEST_CASE("programs that call themselves end in an error") {
@@ -70,11 +62,8 @@ TEST_CASE("programs that call themselves end in an error") {
 TEST_CASE("M30 in a called program ends the run") {
   Control control;
   control.program("L M30\nQ5 = 1", "sub.h");
-  const RunResult result = control.run("QL2 = 4\nCALL PGM sub.h\nQ1 = 1");
-  CHECK(outcome(result) == "completed");
-  CHECK(value(result, "Q1") == "undefined");
-  CHECK(value(result, "Q5") == "undefined");
-  CHECK(value(result, "QL2") == "4");
+  check_completes(control.run("QL2 = 4\nCALL PGM sub.h\nQ1 = 1"),
+                  "Q1=undefined, Q5=undefined, QL2=4");
 }
 
 TEST_CASE("a missing program is an error where it is called and a warning before") {
@@ -98,25 +87,23 @@ TEST_CASE("a program cannot leave the control's disk") {
 TEST_CASE("SEL PGM, CALL SELECTED PGM and cycle 12") {
   Control control;
   control.program("Q1 = Q1 + 1", "sub.h");
-  const RunResult result = control.run(
-      "Q1 = 0\nSEL PGM \"sub.h\"\nCALL SELECTED PGM\nCYCL DEF 12.0 PGM CALL\nCYCL DEF 12.1 PGM "
-      "sub.h\nCYCL CALL\nCYCL CALL");
-  CHECK(outcome(result) == "completed");
-  CHECK(value(result, "Q1") == "3");
+  check_completes(
+      control.run(
+          "Q1 = 0\nSEL PGM \"sub.h\"\nCALL SELECTED PGM\nCYCL DEF 12.0 PGM CALL\nCYCL DEF 12.1 PGM "
+          "sub.h\nCYCL CALL\nCYCL CALL"),
+      "Q1=3");
 }
 
 TEST_CASE("conditions compare numbers with a tolerance, strings exactly") {
   Control control;
-  const RunResult result = control.run(
-      "Q1 = 0.1 + 0.2\nQ2 = 0\nQS1 = \"a\"\nFN 9: IF +Q1 EQU +0.3 GOTO LBL 1\nQ2 = 1\nLBL 1\n"
-      "FN 9: IF QS1 EQU \"a\" GOTO LBL 2\nQ2 = 2\nLBL 2\nFN 9: IF Q9 IS UNDEFINED GOTO LBL 3\nQ2 = "
-      "3\nLBL 3\n"
-      "FN 10: IF +Q1 NE +0.3 GOTO LBL 4\nQ3 = 1\nLBL 4\nFN 11: IF +1 GT +1 GOTO LBL 5\nQ4 = 1\n"
-      "LBL 5");
-  CHECK(outcome(result) == "completed");
-  CHECK(value(result, "Q2") == "0");
-  CHECK(value(result, "Q3") == "1");
-  CHECK(value(result, "Q4") == "1");
+  check_completes(
+      control.run(
+          "Q1 = 0.1 + 0.2\nQ2 = 0\nQS1 = \"a\"\nFN 9: IF +Q1 EQU +0.3 GOTO LBL 1\nQ2 = 1\nLBL 1\n"
+          "FN 9: IF QS1 EQU \"a\" GOTO LBL 2\nQ2 = 2\nLBL 2\nFN 9: IF Q9 IS UNDEFINED GOTO LBL 3\n"
+          "Q2 = 3\nLBL 3\n"
+          "FN 10: IF +Q1 NE +0.3 GOTO LBL 4\nQ3 = 1\nLBL 4\nFN 11: IF +1 GT +1 GOTO LBL 5\nQ4 = 1\n"
+          "LBL 5"),
+      "Q2=0, Q3=1, Q4=1");
 }
 
 TEST_CASE("a coordinate without a value is left out, and a note says so") {
@@ -143,10 +130,7 @@ TEST_CASE("block skip passes over blocks marked with a slash") {
   control.program("Q1 = 1\n/Q1 = 2\n/ 4 Q2 = 1\nQ3 = 3");
   CHECK(value(control.run(), "Q1") == "2");
   control.options.block_skip = true;
-  const RunResult result = control.run();
-  CHECK(value(result, "Q1") == "1");
-  CHECK(value(result, "Q2") == "undefined");
-  CHECK(value(result, "Q3") == "3");
+  check_values(control.run(), "Q1=1, Q2=undefined, Q3=3");
 }
 
 TEST_CASE("a programmed stop is reported and the run goes on, or ends") {
@@ -170,9 +154,7 @@ TEST_CASE("parameters are set before the first block") {
   control.options.parameters = {{{klartext::QSpace::Q, 1}, 25.0},
                                 {{klartext::QSpace::Qs, 1}, std::string("H7")},
                                 {{klartext::QSpace::Ql, 3}, 4.0}};
-  const RunResult result = control.run("Q2 = Q1 + QL3\nQS2 = QS1 || \"!\"");
-  CHECK(value(result, "Q2") == "29");
-  CHECK(value(result, "QS2") == "H7!");
+  check_values(control.run("Q2 = Q1 + QL3\nQS2 = QS1 || \"!\""), "Q2=29, QS2=H7!");
 }
 
 }  // namespace

@@ -65,23 +65,13 @@ TEST_CASE("an undefined parameter is an error that names it, wherever it is read
 
 TEST_CASE("FN functions") {
   Control control;
-  const RunResult result = control.run(
-      "FN 0: Q1 = +10\nFN 1: Q2 = +Q1 + +5\nFN 2: Q3 = +Q1 - +5\nFN 3: Q4 = +Q1 * +3\n"
-      "FN 4: Q5 = +Q1 DIV +4\nFN 5: Q6 = SQRT +16\nFN 6: Q7 = SIN +30\nFN 7: Q8 = COS +60\n"
-      "FN 8: Q9 = +3 LEN +4\nFN 13: Q10 = -1 ANG +0\nFN 13: Q11 = +1 ANG -1\n"
-      "FN 0: Q12 = +1\nFN 0: Q12 SET UNDEFINED");
-  CHECK(outcome(result) == "completed");
-  CHECK(value(result, "Q2") == "15");
-  CHECK(value(result, "Q3") == "5");
-  CHECK(value(result, "Q4") == "30");
-  CHECK(value(result, "Q5") == "2.5");
-  CHECK(value(result, "Q6") == "4");
-  CHECK(value(result, "Q7") == "0.5");
-  CHECK(value(result, "Q8") == "0.5");
-  CHECK(value(result, "Q9") == "5");
-  CHECK(value(result, "Q10") == "270");
-  CHECK(value(result, "Q11") == "135");
-  CHECK(value(result, "Q12") == "undefined");
+  check_completes(
+      control.run(
+          "FN 0: Q1 = +10\nFN 1: Q2 = +Q1 + +5\nFN 2: Q3 = +Q1 - +5\nFN 3: Q4 = +Q1 * +3\n"
+          "FN 4: Q5 = +Q1 DIV +4\nFN 5: Q6 = SQRT +16\nFN 6: Q7 = SIN +30\nFN 7: Q8 = COS +60\n"
+          "FN 8: Q9 = +3 LEN +4\nFN 13: Q10 = -1 ANG +0\nFN 13: Q11 = +1 ANG -1\n"
+          "FN 0: Q12 = +1\nFN 0: Q12 SET UNDEFINED"),
+      "Q2=15, Q3=5, Q4=30, Q5=2.5, Q6=4, Q7=0.5, Q8=0.5, Q9=5, Q10=270, Q11=135, Q12=undefined");
 }
 
 TEST_CASE("FN 23 and FN 24 give the circle through points") {
@@ -97,28 +87,17 @@ TEST_CASE("FN 23 and FN 24 give the circle through points") {
 
 TEST_CASE("strings") {
   Control control;
-  const RunResult result = control.run(
-      "QS1 = \"H7\"\nDECLARE STRING QS2 = \"a\"\nQ1 = STRCOMP( SRC_QS1 SEA_QS2 )\n"
-      "Q2 = STRCOMP( SRC_QS2 SEA_QS1 )\nQ3 = STRLEN( SRC_QS1 )\nQ4 = STRLEN( SRC_QS9 )\n"
-      "QS3 = QS1 || \"-\" || QS2\nQ50 = 25.5\nQS4 = TOCHAR( DAT+Q50 DECIMALS4 )\n"
-      "QS5 = TOCHAR( DAT+Q50 )\nQS6 = SUBSTR( SRC_QS3 BEG1 LEN2 )\nQS7 = \"12,5\"\n"
-      "Q5 = TONUMB( SRC_QS7 )\nQ6 = INSTR( SRC_QS3 SEA_QS2 BEG0 )\n"
-      "Q7 = INSTR( SRC_QS1 SEA_QS2 BEG0 )\nQS8 = SYSSTR( ID10010 NR1 )\n"
-      "QS10 = SYSSTR( ID10321 NR0 )");
-  CHECK(outcome(result) == "completed");
-  CHECK(value(result, "Q1") == "-1");
-  CHECK(value(result, "Q2") == "1");
-  CHECK(value(result, "Q3") == "2");
-  CHECK(value(result, "Q4") == "-1");
-  CHECK(value(result, "QS3") == "H7-a");
-  CHECK(value(result, "QS4") == "25.5000");
-  CHECK(value(result, "QS5") == "25.5");
-  CHECK(value(result, "QS6") == "7-");
-  CHECK(value(result, "Q5") == "12.5");
-  CHECK(value(result, "Q6") == "3");
-  CHECK(value(result, "Q7") == "2");
-  CHECK(value(result, "QS8") == "TNC:\\nc_prog\\main.h");
-  CHECK(value(result, "QS10") == "20.11.2026 08:05:09");
+  check_completes(
+      control.run(
+          "QS1 = \"H7\"\nDECLARE STRING QS2 = \"a\"\nQ1 = STRCOMP( SRC_QS1 SEA_QS2 )\n"
+          "Q2 = STRCOMP( SRC_QS2 SEA_QS1 )\nQ3 = STRLEN( SRC_QS1 )\nQ4 = STRLEN( SRC_QS9 )\n"
+          "QS3 = QS1 || \"-\" || QS2\nQ50 = 25.5\nQS4 = TOCHAR( DAT+Q50 DECIMALS4 )\n"
+          "QS5 = TOCHAR( DAT+Q50 )\nQS6 = SUBSTR( SRC_QS3 BEG1 LEN2 )\nQS7 = \"12,5\"\n"
+          "Q5 = TONUMB( SRC_QS7 )\nQ6 = INSTR( SRC_QS3 SEA_QS2 BEG0 )\n"
+          "Q7 = INSTR( SRC_QS1 SEA_QS2 BEG0 )\nQS8 = SYSSTR( ID10010 NR1 )\n"
+          "QS10 = SYSSTR( ID10321 NR0 )"),
+      "Q1=-1, Q2=1, Q3=2, Q4=-1, QS3=H7-a, QS4=25.5000, QS5=25.5, QS6=7-, Q5=12.5, Q6=3, Q7=2, "
+      "QS8=TNC:\\nc_prog\\main.h, QS10=20.11.2026 08:05:09");
 }
 
 TEST_CASE("a string parameter holds 255 characters") {
@@ -131,13 +110,9 @@ TEST_CASE("a string parameter holds 255 characters") {
 
 TEST_CASE("preassigned parameters have a value when they are read") {
   Control control;
-  const RunResult result =
-      control.run("Q1 = Q113\nTOOL CALL 30 Z S500\nQ2 = Q108\nQ3 = Q109\nM3\nQ4 = Q110");
-  CHECK(outcome(result) == "completed");
-  CHECK(value(result, "Q1") == "0");
-  CHECK(value(result, "Q2") == "2");
-  CHECK(value(result, "Q3") == "2");
-  CHECK(value(result, "Q4") == "0");
+  check_completes(
+      control.run("Q1 = Q113\nTOOL CALL 30 Z S500\nQ2 = Q108\nQ3 = Q109\nM3\nQ4 = Q110"),
+      "Q1=0, Q2=2, Q3=2, Q4=0");
 }
 
 }  // namespace

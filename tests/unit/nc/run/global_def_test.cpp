@@ -69,11 +69,7 @@ TEST_CASE("PREDEF without its GLOBAL DEF is an error that names both") {
 
 TEST_CASE("what GLOBAL DEF cannot say is found before the start") {
   Control control;
-  const auto first_finding = [&](std::string_view body) {
-    control.program(body);
-    const auto found = control.diagnostics();
-    return found.empty() ? std::string() : found.front().message;
-  };
+  const auto first_finding = [&](std::string_view body) { return control.first_finding(body); };
   CHECK(first_finding("CYCL DEF 200 X ~\n Q201=PREDEF") ==
         "Q201 takes no PREDEF: no GLOBAL DEF has a value for it");
   CHECK(first_finding("GLOBAL DEF 120 PROBING ~\n Q320=PREDEF ~\n Q260=+40 ~\n Q301=+1") ==

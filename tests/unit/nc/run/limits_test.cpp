@@ -19,8 +19,7 @@ TEST_CASE("additions in one step with what follows are counted and refused one b
   const std::string loop =
       "Q1 = 0\nQ2 = 0\nLBL 1\nQ2 = Q2 + Q1\nQ1 = Q1 + 1\nFN 12: IF +Q1 LT +5 GOTO LBL 1";
   const RunResult all = control.run(loop);
-  CHECK(value(all, "Q1") == "5");
-  CHECK(value(all, "Q2") == "10");
+  check_values(all, "Q1=5, Q2=10");
   CHECK(all.blocks_executed == 24);
   // At every limit the values are those of the blocks before it: three, then LBL 1, the sum, the
   // counter and the jump of each pass.
@@ -105,14 +104,21 @@ TEST_CASE("the number of files is bounded") {
 
 constexpr const char* kEndless = "\nFN 9: IF +1 EQU +1 GOTO LBL 1";
 
-/// A machine and a probe for moves along a plane at Z0.
-void put_on_a_plane(Control& control) {
+/// A machine with a bore of many lobes in a plane at Z0, and a move inside that lasts.
+constexpr const char* kLongMove =
+    "TOOL CALL 30 Z\nCC X+0 Y+0\nL X+4 FMAX\nL Z-1 FMAX\nCP IPA+999999 IZ-5 DR+ FMAX";
+void put_on_lobes(Control& control) {
   for (const auto axis : {machine::Axis::X, machine::Axis::Y, machine::Axis::Z}) {
     control.setup.machine.axes[machine::index(axis)]->min = -1e6;
     control.setup.machine.axes[machine::index(axis)]->max = 1e6;
   }
   control.setup.machine.start[machine::Axis::Z] = 500;
-  control.setup.features = {machine::Plane{}};
+  machine::Bore bore;
+  bore.diameter = 20;
+  bore.depth = 50;
+  bore.lobes = 1000;
+  bore.lobe_amplitude_um = 100;
+  control.setup.features = {machine::Plane{}, bore};
 }
 
 TEST_CASE("whatever a run holds counts as its memory") {
@@ -181,46 +187,31 @@ TEST_CASE("a block that lasts ends at the limit of time, wherever it stands") {
   };
   const Row rows[] = {
       // As slow as a trace can be: an arc of thousands of turns around a bore of many lobes.
-      {"a helix inside of lobes",
-       "CC X+0 Y+0\nL X+4 FMAX\nL Z-1 FMAX\nCP IPA+999999 IZ-5 DR+ FMAX"},
+      {"a helix inside of lobes", kLongMove},
       {"existence of a file, again and again",
        std::string("QS1 = \"big.bin\"\nLBL 1\nFN 18: SYSREAD Q1 = ID10 NR110 IDX1") + kEndless},
       {"a comparison of texts",
        std::string("QS1 = \"a\"\nLBL 1\nFN 9: IF QS1 EQU QS1 GOTO LBL 1") + kEndless},
   };
   Control control;
-  put_on_a_plane(control);
-  machine::Bore bore;
-  bore.diameter = 20;
-  bore.depth = 50;
-  bore.lobes = 1000;
-  bore.lobe_amplitude_um = 100;
-  control.setup.features.emplace_back(bore);
+  put_on_lobes(control);
   control.file("big.bin", std::string(1 << 20, 'x'));
   control.options.limits.blocks = UINT32_MAX;
   control.options.limits.time = std::chrono::hours(1);
   control.spent_at = {200, Allowance::Spent::Time};
   for (const Row& row : rows) {
     CAPTURE(row.what);
-    const RunResult result = control.run("TOOL CALL 30 Z\n" + row.body);
+    const RunResult result = control.run(row.body);
     CHECK(outcome(result).find("the run has taken its limit of 3600 seconds") != std::string::npos);
   }
 }
 
 TEST_CASE("a move that has begun is called off from outside") {
   Control control;
-  put_on_a_plane(control);
+  put_on_lobes(control);
   control.options.limits.time = std::chrono::hours(1);
-  machine::Bore bore;
-  bore.diameter = 20;
-  bore.depth = 50;
-  bore.lobes = 1000;
-  bore.lobe_amplitude_um = 100;
-  control.setup.features.emplace_back(bore);
-  control.program(
-      "TOOL CALL 30 Z\nCC X+0 Y+0\nL X+4 FMAX\nL Z-1 FMAX\nCP IPA+999999 IZ-5 DR+ FMAX");
   control.spent_at = {200, Allowance::Spent::Stop};
-  const RunResult result = control.run();
+  const RunResult result = control.run(kLongMove);
   REQUIRE(result.status == RunStatus::Cancelled);
   CHECK(result.messages.back().line == 6);
 }

@@ -69,11 +69,7 @@ TEST_CASE("sub-lines of a cycle without the line .0, out of order, or left out, 
 
 TEST_CASE("what two sub-lines of a cycle say twice, or against each other, is refused") {
   Control control;
-  const auto found = [&](std::string_view blocks) {
-    control.program(blocks);
-    const auto diagnostics = control.diagnostics();
-    return diagnostics.empty() ? std::string() : diagnostics[0].message;
-  };
+  const auto found = [&](std::string_view blocks) { return control.first_finding(blocks); };
   const std::string shift = "CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 ";
   const std::string both = "cycle 7 takes a row of the datum table or coordinates, not both";
   CHECK(found(shift + "X+5\nCYCL DEF 7.2 X+6") == "X is also in line 3 of this cycle");
@@ -149,11 +145,7 @@ TEST_CASE("a run notes a blank whose corners contradict each other") {
 
 TEST_CASE("M functions of one block that exclude each other are found before the run") {
   Control control;
-  const auto found = [&](std::string_view block) {
-    control.program(block);
-    const auto diagnostics = control.diagnostics();
-    return diagnostics.empty() ? std::string() : diagnostics[0].message;
-  };
+  const auto found = [&](std::string_view block) { return control.first_finding(block); };
   const std::string end = " exclude each other in a block: leave one of them out";
   CHECK(found("L X+1 F100 M3 M4") == "M3 and M4" + end);
   CHECK(found("M127 M126") == "M127 and M126" + end);
@@ -168,11 +160,7 @@ TEST_CASE("M functions of one block that exclude each other are found before the
 TEST_CASE("a row and columns that the only open table lacks are found before the run") {
   Control control;
   control.file("t.tab", "BEGIN T .TAB\nNR X  Y\n12 +1 +2\n[END]\n");
-  const auto found = [&](std::string_view blocks) {
-    control.program(blocks);
-    const auto diagnostics = control.diagnostics();
-    return diagnostics.empty() ? std::string() : diagnostics[0].message;
-  };
+  const auto found = [&](std::string_view blocks) { return control.first_finding(blocks); };
   const std::string open = "FN 26: TABOPEN t.tab\n";
   const std::string fails = ": the run fails when it reaches this block";
   CHECK(found(open + "FN 28: TABREAD Q1 = 12/\"X,Y\"").empty());

@@ -8,32 +8,16 @@
 namespace fitgauge::interpreter {
 namespace {
 
-using ContourLines = std::vector<std::string>;
-
 /// A control with a cutter 5 of the given radius.
 class ContourMill : public Control {
  public:
-  explicit ContourMill(double radius = 4) {
-    machine::ToolSetup cutter;
-    cutter.row = {.number = 5, .name = "MILL", .l = 100, .r = radius};
-    setup.machine.tools.push_back(cutter);
-  }
+  explicit ContourMill(double radius = 4) { add_cutter(radius); }
 
   /// The moves behind the first, at Z+0.
-  ContourLines path(const std::string& body) {
+  Lines path(const std::string& body) {
     program("TOOL CALL 5 Z S1000 F500\nL X+0 Y+0 Z+0 FMAX\n" + body);
     last = run();
-    ContourLines moves;
-    for (std::string line : machine->lines()) {
-      if (!line.starts_with("L ") && !line.starts_with("ARC ")) continue;
-      for (auto at = line.find(" Z+0.0000"); at != std::string::npos; at = line.find(" Z+0.0000")) {
-        line.erase(at, 9);
-      }
-      for (auto at = line.find(".0000"); at != std::string::npos; at = line.find(".0000")) {
-        line.erase(at, 5);
-      }
-      moves.push_back(std::move(line));
-    }
+    Lines moves = traced_lines({"L ", "ARC "}, {" Z+0.0000", ".0000"});
     if (!moves.empty()) moves.erase(moves.begin());
     return moves;
   }
@@ -44,9 +28,9 @@ class ContourMill : public Control {
 TEST_CASE("RL goes around outer corners on an arc of the tool's radius") {
   ContourMill mill;
   CHECK(mill.path("L X+10 Y+10 RL F100\nL Y+30\nL X+30\nL Y+10\nL X+10\nL X+0 Y+0 R0") ==
-        ContourLines{"L X+6 Y+10 F100", "L X+6 Y+30 F100", "ARC X+10 Y+34 CC X+10 Y+30 -90 F100",
-                     "L X+30 Y+34 F100", "ARC X+34 Y+30 CC X+30 Y+30 -90 F100", "L X+34 Y+10 F100",
-                     "ARC X+30 Y+6 CC X+30 Y+10 -90 F100", "L X+10 Y+6 F100", "L X+0 Y+0 F100"});
+        Lines{"L X+6 Y+10 F100", "L X+6 Y+30 F100", "ARC X+10 Y+34 CC X+10 Y+30 -90 F100",
+              "L X+30 Y+34 F100", "ARC X+34 Y+30 CC X+30 Y+30 -90 F100", "L X+34 Y+10 F100",
+              "ARC X+30 Y+6 CC X+30 Y+10 -90 F100", "L X+10 Y+6 F100", "L X+0 Y+0 F100"});
   CHECK(outcome(mill.last) == "completed");
   CHECK(mill.last.messages.empty());
 }
@@ -55,8 +39,8 @@ TEST_CASE("scaling scales the contour, not the tool") {
   ContourMill mill;
   // In the machine: a contour of 20 mm to 60 mm, the path 4 mm beside it; the moves show input.
   CHECK(mill.path("CYCL DEF 11.0 SCALING\nCYCL DEF 11.1 SCL 2\nL X+10 Y+10 RR F100\nL Y+30\n"
-                  "L X+30\nL X+30 Y+0 R0") == ContourLines{"L X+12 Y+10 F100", "L X+12 Y+28 F100",
-                                                           "L X+30 Y+28 F100", "L X+30 Y+0 F100"});
+                  "L X+30\nL X+30 Y+0 R0") ==
+        Lines{"L X+12 Y+10 F100", "L X+12 Y+28 F100", "L X+30 Y+28 F100", "L X+30 Y+0 F100"});
   CHECK(mill.machine->state().nose.linear.x == 60);
   CHECK(mill.path("CYCL DEF 11.0 SCALING\nCYCL DEF 11.1 SCL 2\nCYCL DEF 252 CIRCULAR POCKET "
                   "Q223=20 Q201=-1 Q202=1 Q207=100 Q206=100 Q200=1\nCYCL CALL")[2] ==
@@ -68,14 +52,14 @@ TEST_CASE("scaling scales the contour, not the tool") {
 TEST_CASE("RR meets inner corners where the offset lines cross") {
   ContourMill mill;
   CHECK(mill.path("L X+10 Y+10 RR F100\nL Y+30\nL X+30\nL Y+10\nL X+10\nL X+0 Y+0 R0") ==
-        ContourLines{"L X+14 Y+10 F100", "L X+14 Y+26 F100", "L X+26 Y+26 F100", "L X+26 Y+14 F100",
-                     "L X+10 Y+14 F100", "L X+0 Y+0 F100"});
+        Lines{"L X+14 Y+10 F100", "L X+14 Y+26 F100", "L X+26 Y+26 F100", "L X+26 Y+14 F100",
+              "L X+10 Y+14 F100", "L X+0 Y+0 F100"});
 }
 
 TEST_CASE("arcs keep their centre and change their radius by that of the tool") {
   ContourMill mill;
   CHECK(mill.path("CC X+40 Y+0\nL X+20 Y+0 RL F100\nC X+20 Y+0 DR+\nL X+40 Y+0 R0") ==
-        ContourLines{"L X+24 Y+0 F100", "ARC X+24 Y+0 CC X+40 Y+0 +360 F100", "L X+40 Y+0 F100"});
+        Lines{"L X+24 Y+0 F100", "ARC X+24 Y+0 CC X+40 Y+0 +360 F100", "L X+40 Y+0 F100"});
   CHECK(mill.path("CC X+40 Y+0\nL X+20 Y+0 RR F100\nC X+60 Y+0 DR+\nL X+90 Y+0 R0")[1] ==
         "ARC X+64 Y+0 CC X+40 Y+0 +180 F100");
   // DR of TOOL CALL belongs to the radius.
@@ -86,9 +70,9 @@ TEST_CASE("arcs keep their centre and change their radius by that of the tool") 
 TEST_CASE("a move of the tool axis within a contour is made at its corner") {
   ContourMill mill;
   CHECK(mill.path("L X+10 Y+10 RL F100\nL Z-5\nL Y+30\nL Z+2\nL X+30\nL X+40 R0") ==
-        ContourLines{"L X+6 Y+10 F100", "L X+6 Y+10 Z-5 F100", "L X+6 Y+30 Z-5 F100",
-                     "L X+6 Y+30 Z+2 F100", "ARC X+10 Y+34 Z+2 CC X+10 Y+30 Z+2 -90 F100",
-                     "L X+30 Y+34 Z+2 F100", "L X+40 Y+30 Z+2 F100"});
+        Lines{"L X+6 Y+10 F100", "L X+6 Y+10 Z-5 F100", "L X+6 Y+30 Z-5 F100",
+              "L X+6 Y+30 Z+2 F100", "ARC X+10 Y+34 Z+2 CC X+10 Y+30 Z+2 -90 F100",
+              "L X+30 Y+34 Z+2 F100", "L X+40 Y+30 Z+2 F100"});
 }
 
 TEST_CASE("incremental words count from the programmed contour") {
@@ -99,14 +83,13 @@ TEST_CASE("incremental words count from the programmed contour") {
 
 TEST_CASE("APPR and DEP begin and end beside the contour") {
   ContourMill mill;
-  CHECK(
-      mill.path("APPR LT X+10 Y+10 LEN5 RL F100\nL X+30\nDEP LT LEN6") ==
-      ContourLines{"L X+5 Y+14 FMAX", "L X+10 Y+14 F100", "L X+30 Y+14 F100", "L X+36 Y+14 F100"});
+  CHECK(mill.path("APPR LT X+10 Y+10 LEN5 RL F100\nL X+30\nDEP LT LEN6") ==
+        Lines{"L X+5 Y+14 FMAX", "L X+10 Y+14 F100", "L X+30 Y+14 F100", "L X+36 Y+14 F100"});
   CHECK(mill.path("APPR LN X+10 Y+10 LEN5 RR F100\nL X+30\nDEP LN LEN6") ==
-        ContourLines{"L X+10 Y+1 FMAX", "L X+10 Y+6 F100", "L X+30 Y+6 F100", "L X+30 Y+0 F100"});
+        Lines{"L X+10 Y+1 FMAX", "L X+10 Y+6 F100", "L X+30 Y+6 F100", "L X+30 Y+0 F100"});
   CHECK(mill.path("APPR CT X+10 Y+10 CCA90 R5 RL F100\nL X+30\nDEP CT CCA90 R5") ==
-        ContourLines{"L X+5 Y+19 FMAX", "ARC X+10 Y+14 CC X+10 Y+19 +90 F100", "L X+30 Y+14 F100",
-                     "ARC X+35 Y+19 CC X+30 Y+19 +90 F100"});
+        Lines{"L X+5 Y+19 FMAX", "ARC X+10 Y+14 CC X+10 Y+19 +90 F100", "L X+30 Y+14 F100",
+              "ARC X+35 Y+19 CC X+30 Y+19 +90 F100"});
   CHECK(mill.path("APPR CT X+10 Y+10 CCA90 R5 RR F100\nL X+30\nL X+50\nDEP LT LEN1").back() ==
         "L X+51 Y+6 F100");
 }
@@ -202,7 +185,7 @@ std::pair<double, double> distances(ContourMill& mill, std::mt19937& random, con
     body << "L X" << polygon[i].x << " Y" << polygon[i].y << "\n";
   }
   body << "L X0 Y0 R0";
-  ContourLines moves = mill.path(body.str());
+  Lines moves = mill.path(body.str());
   REQUIRE(outcome(mill.last) == "completed");
   ContourPoint at;
   sample(moves.front(), at);

@@ -38,6 +38,13 @@ class Control {
     return check(main_path(), disk, programs, unlimited).value();
   }
 
+  /// The message of the first finding of the check, or nothing.
+  std::string first_finding(std::string_view body) {
+    program(body);
+    const auto found = diagnostics();
+    return found.empty() ? std::string() : found[0].message;
+  }
+
   RunResult run(std::stop_token stop = {}) {
     const auto file = programs.get(*disk.find(main_path()));
     if (file->program == nullptr) {
@@ -62,6 +69,27 @@ class Control {
   RunResult run(std::string_view body) {
     program(body);
     return run();
+  }
+
+  /// Adds the cutter 5 of length 100 to the tools.
+  void add_cutter(double radius = 4) {
+    machine::ToolSetup& cutter = setup.machine.tools.emplace_back();
+    cutter.row = {.number = 5, .name = "MILL", .l = 100, .r = radius};
+    cutter.row.teeth = 2;
+  }
+  /// The lines of the last run that begin with one of these words, without the texts to leave out.
+  Lines traced_lines(const Lines& words, const Lines& left_out) const {
+    Lines kept;
+    for (std::string line : machine->lines()) {
+      if (std::ranges::none_of(words, [&](auto& word) { return line.starts_with(word); })) continue;
+      for (const std::string& text : left_out) {
+        for (auto at = line.find(text); at != text.npos; at = line.find(text)) {
+          line.erase(at, text.size());
+        }
+      }
+      kept.push_back(std::move(line));
+    }
+    return kept;
   }
 
   static ControlPath main_path() { return ControlPath::parse("TNC:\\nc_prog\\main.h").value(); }
@@ -92,6 +120,31 @@ inline std::string value(const RunResult& result, std::string_view parameter) {
   return "undefined";
 }
 
+/// Status and last message: `failed line 2: text`.
+inline std::string outcome(const RunResult& result) {
+  std::string text(word(result.status));
+  if (result.status == RunStatus::Completed || result.messages.empty()) return text;
+  const RunMessage& last = result.messages.back();
+  return text + " line " + std::to_string(last.line) + ": " + last.text;
+}
+
+/// Checks parameters at the end of a run: `Q1=2.5, QS1=GOOD, Q3=undefined`.
+inline void check_values(const RunResult& result, std::string_view expected) {
+  CAPTURE(expected);
+  for (std::size_t at = 0; at < expected.size();) {
+    const std::string_view each = expected.substr(at, expected.find(", ", at) - at);
+    at += each.size() + 2;
+    const std::string_view name = each.substr(0, each.find('='));
+    CHECK(std::string(name) + "=" + value(result, name) == each);
+  }
+}
+
+/// Checks that a run completes, and parameters at its end.
+inline void check_completes(const RunResult& result, std::string_view expected) {
+  CHECK(outcome(result) == "completed");
+  check_values(result, expected);
+}
+
 inline double number_of(const RunResult& result, std::string_view parameter) {
   const klartext::QRef sought = parse_parameter_name(parameter).value();
   for (const auto& [found, content] : result.parameters) {
@@ -99,14 +152,6 @@ inline double number_of(const RunResult& result, std::string_view parameter) {
   }
   FAIL(std::string(parameter) << " is undefined");
   return 0;
-}
-
-/// Status and last message: `failed line 2: text`.
-inline std::string outcome(const RunResult& result) {
-  std::string text(word(result.status));
-  if (result.status == RunStatus::Completed || result.messages.empty()) return text;
-  const RunMessage& last = result.messages.back();
-  return text + " line " + std::to_string(last.line) + ": " + last.text;
 }
 
 }  // namespace fitgauge::interpreter

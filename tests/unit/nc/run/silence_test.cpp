@@ -69,8 +69,7 @@ TEST_CASE("M143 deletes the basic rotation, M130 counts in the plane without til
   Tilting control;
   control.path(
       "FN 18: SYSREAD Q1 = ID210 NR1\nM143\nFN 18: SYSREAD Q2 = ID210 NR1\nL X+20 Y+0 F100");
-  CHECK(value(control.last, "Q1") == "30");
-  CHECK(value(control.last, "Q2") == "0");
+  check_values(control.last, "Q1=30, Q2=0");
   CHECK(control.machine->state().nose[machine::Axis::X] == doctest::Approx(20));
 
   control.setup.machine.presets[0].frame.basic_rotation_deg = {};
@@ -152,9 +151,7 @@ TEST_CASE("the next TOOL CALL sees what FN 27 has written into tool.t") {
       "Q5 = 115.029\nQ6 = 7.516\nFN 26: TABOPEN TNC:\\table\\tool.t\nFN 27: TABWRITE 40/\"L,R\" = "
       "Q5\n"
       "TOOL CALL 40 Z");
-  CHECK(outcome(control.last) == "completed");
-  CHECK(value(control.last, "Q108") == "7.516");
-  CHECK(value(control.last, "Q114") == "115.029");
+  check_completes(control.last, "Q108=7.516, Q114=115.029");
 }
 
 TEST_CASE("the datum table of the setup is active at the start") {

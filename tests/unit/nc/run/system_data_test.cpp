@@ -91,12 +91,7 @@ TEST_CASE("FN 18 answers every number that the check takes for available") {
 }
 
 TEST_CASE("the check names system data that this control lacks") {
-  const auto found = [](std::string_view block) {
-    Control control;
-    control.program(block);
-    const auto diagnostics = control.diagnostics();
-    return diagnostics.empty() ? std::string() : diagnostics[0].message;
-  };
+  const auto found = [](std::string_view block) { return Control().first_finding(block); };
   const std::string fails = " is not available here: the run fails when it reaches this block";
   CHECK(found("FN 18: SYSREAD Q1 = ID9999 NR1") == "FN 18: ID9999" + fails);
   CHECK(found("FN 18: SYSREAD Q1 = ID9999 NRQ3") == "FN 18: ID9999" + fails);
@@ -216,10 +211,7 @@ TEST_CASE("FN 17 writes tools, presets and the datum table") {
       "FN 17: SYSWRITE ID503 NR7 IDX2 = -12\nFN 18: SYSREAD Q2 = ID503 NR7 IDX2\n"
       "SEL TABLE \"zero.d\"\nFN 17: SYSWRITE ID500 NR3 IDX1 = +4.5\n"
       "FN 18: SYSREAD Q3 = ID500 NR3 IDX1");
-  CHECK(outcome(result) == "completed");
-  CHECK(value(result, "Q1") == "130.5");
-  CHECK(value(result, "Q2") == "-12");
-  CHECK(value(result, "Q3") == "4.5");
+  check_completes(result, "Q1=130.5, Q2=-12, Q3=4.5");
   REQUIRE(result.files.size() == 1);
   CHECK(result.files[0].path.text() == "TNC:\\nc_prog\\zero.d");
   CHECK(outcome(control.run("FN 17: SYSWRITE ID20 NR1 = 5")) ==
