@@ -113,8 +113,7 @@ TEST_CASE("427 in the probe axis: the surface, whether Q261 names it or the ball
   for (const double q261 : {0.0, 2.0, 1.0}) {
     ProbingBench bench({kRaisedPlate});
     CHECK(bench.run(427, with(top_block(), {{261, q261}})) == 0);
-    CHECK(same(bench.host.q[160], 0.013));
-    CHECK(same(bench.host.q[168], 0.013 - q261));
+    check_q(bench, {{160, 0.013}, {168, 0.013 - q261}});
     CHECK(bench.status() == 100);
     CHECK(bench.host.files.count("TCHPR427.TXT") == 1);
     CHECK(bench.run(427, with(top_block(), {{261, q261}, {288, 0.0}, {289, 0.0}, {309, 1.0}})) ==

@@ -7,16 +7,10 @@ namespace {
 
 using machine::Block;
 
-/// A pocket or slot of the given size around 100, 80: four blocks.
-std::vector<machine::Feature> pocket(double length, double width, double dx = 0, double dy = 0) {
-  const double x1 = 100 + dx - length / 2;
-  const double x2 = 100 + dx + length / 2;
-  const double y1 = 80 + dy - width / 2;
-  const double y2 = 80 + dy + width / 2;
-  return {Block{.min = {0, 0, -40}, .max = {x1, 200, 0}},
-          Block{.min = {x2, 0, -40}, .max = {200, 200, 0}},
-          Block{.min = {x1, 0, -40}, .max = {x2, y1, 0}},
-          Block{.min = {x1, y2, -40}, .max = {x2, 200, 0}}};
+/// A pocket or slot of the given size around 100, 80.
+std::vector<machine::Feature> pocket_of(double length, double width, double dx = 0, double dy = 0) {
+  return pocket(100 + dx - length / 2, 80 + dy - width / 2, 100 + dx + length / 2,
+                80 + dy + width / 2);
 }
 std::vector<machine::Feature> stud(double length, double width) {
   return {Block{.min = {100 - length / 2, 80 - width / 2, -40},
@@ -50,24 +44,23 @@ TEST_CASE("423: both lengths on their limits, and one too short with the other t
        {Case{60.02, 39.98, 100, 0}, Case{59.98, 40.02, 100, 0}, Case{59.9799, 40.0201, 1, 1053}}) {
     CAPTURE(c.length);
     CAPTURE(c.width);
-    ProbingBench bench(pocket(c.length, c.width));
+    ProbingBench bench(pocket_of(c.length, c.width));
     CHECK(bench.run(423, rectangle_block()) == c.error);
     CHECK(bench.status() == c.status);
-    CHECK(same(bench.host.q[151], 100));
-    CHECK(same(bench.host.q[152], 80));
-    CHECK(same(bench.host.q[154], c.length));
-    CHECK(same(bench.host.q[155], c.width));
-    CHECK(same(bench.host.q[164], c.length - 60));
-    CHECK(same(bench.host.q[165], c.width - 40));
+    check_q(bench, {{151, 100},
+                    {152, 80},
+                    {154, c.length},
+                    {155, c.width},
+                    {164, c.length - 60},
+                    {165, c.width - 40}});
     CHECK(bench.host.records.front().sizes.size() == 4);
   }
 }
 
 TEST_CASE("423: the centre against its tolerance, and contradictory limits") {
-  ProbingBench bench(pocket(60, 40, 0.05, -0.03));
+  ProbingBench bench(pocket_of(60, 40, 0.05, -0.03));
   CHECK(bench.run(423, with(rectangle_block(), {{279, 0.05}, {280, 0.03}})) == 0);
-  CHECK(same(bench.host.q[161], 0.05));
-  CHECK(same(bench.host.q[162], -0.03));
+  check_q(bench, {{161, 0.05}, {162, -0.03}});
   CHECK(bench.run(423, with(rectangle_block(), {{279, 0.049}, {280, 0.03}})) == 1044);
   CHECK(bench.run(423, with(rectangle_block(), {{280, 0.0299}})) == 1045);
   CHECK(bench.run(423, with(rectangle_block(), {{284, 59.0}})) == 1016);
@@ -75,11 +68,10 @@ TEST_CASE("423: the centre against its tolerance, and contradictory limits") {
 }
 
 TEST_CASE("423 touches a small pocket from its centre") {
-  ProbingBench bench(pocket(7, 6));
+  ProbingBench bench(pocket_of(7, 6));
   CHECK(bench.run(423, with(rectangle_block(), values("282=7 283=6 284=0 285=0 286=0 287=0"))) ==
         0);
-  CHECK(same(bench.host.q[154], 7));
-  CHECK(same(bench.host.q[155], 6));
+  check_q(bench, {{154, 7}, {155, 6}});
 }
 
 TEST_CASE("424: both lengths correct the tool by their mean") {
@@ -96,16 +88,14 @@ TEST_CASE("425: good, rework and reject of a slot, limits inclusive") {
     CAPTURE(c.width);
     for (const double offset : {0.0, -15.0}) {
       for (const double via_clearance : {0.0, 1.0}) {
-        ProbingBench bench(pocket(c.length, c.width, 0, 0.2));
+        ProbingBench bench(pocket_of(c.length, c.width, 0, 0.2));
         CHECK(bench.run(425, with(slot_block(), {{310, offset}, {301, via_clearance}})) == c.error);
         CHECK(bench.status() == c.status);
-        CHECK(same(bench.host.q[156], c.width));
-        CHECK(same(bench.host.q[157], 80.2));
-        CHECK(same(bench.host.q[166], c.width - 30));
+        check_q(bench, {{156, c.width}, {157, 80.2}, {166, c.width - 30}});
       }
     }
   }
-  ProbingBench main(pocket(30, 60));
+  ProbingBench main(pocket_of(30, 60));
   CHECK(main.run(425, with(slot_block(), {{272, 1.0}})) == 0);
   CHECK(same(main.host.q[157], 100));
 }
@@ -118,8 +108,7 @@ TEST_CASE("426: good, rework and reject of a ridge, from either end") {
       ProbingBench bench(stud(c.length, c.width));
       CHECK(bench.run(426, with(ridge_block(), {{264, first}, {266, 160 - first}})) == c.error);
       CHECK(bench.status() == c.status);
-      CHECK(same(bench.host.q[156], c.width));
-      CHECK(same(bench.host.q[157], 80));
+      check_q(bench, {{156, c.width}, {157, 80}});
     }
   }
 }

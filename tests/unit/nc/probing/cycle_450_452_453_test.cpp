@@ -113,9 +113,7 @@ TEST_CASE("452 takes a drift of the tool into the kinematics and keeps the prese
     const Vec3 moved_by = axis.centre - before.find(axis.axis)->centre;
     CHECK(norm(moved_by - axis.direction * dot(moved_by, axis.direction)) < 1e-8);
   }
-  CHECK(same(bench.host.q[147], drift.x));
-  CHECK(same(bench.host.q[148], drift.y));
-  CHECK(same(bench.host.q[149], drift.z));
+  check_q(bench, {{147, drift.x}, {148, drift.y}, {149, drift.z}});
   CHECK(bench.machine.state().presets.find(1)->frame.origin == kSphere);
   CHECK(contains(log_of(bench, 452), "X 0.0400, Y -0.0300, Z 0.1200"));
 

@@ -73,12 +73,9 @@ TEST_CASE("checking finds the errors of the axes and leaves the model as it is")
   CHECK(bench.machine.state().kinematics == before);
   CHECK(bench.host.q[141] > 0.01);
   CHECK(bench.host.q[143] > 0.01);
-  CHECK(same(bench.host.q[144], 0));
-  CHECK(same(bench.host.q[146], 0));
+  check_q(bench, {{144, 0}, {146, 0}});
   // Of C, the axis measured last.
-  CHECK(same(bench.host.q[147], -0.02));
-  CHECK(same(bench.host.q[148], 0.05));
-  CHECK(same(bench.host.q[149], 0));
+  check_q(bench, {{147, -0.02}, {148, 0.05}, {149, 0}});
   CHECK(contains(log_of(bench, 451), "X 0.0000, Y 0.0400, Z -0.0300"));
   CHECK(contains(log_of(bench, 451), "X -0.0200, Y 0.0500, Z 0.0000"));
 }
@@ -157,9 +154,7 @@ TEST_CASE("a head is measured like a table") {
   const Values block =
       with(with(kinematics_block(), measured(Axis::B, -60, 60, 5)), {{406, 2.0}, {408, 0.0}});
   REQUIRE(bench.run(451, block) == 0);
-  CHECK(same(bench.host.q[147], 0.03));
-  CHECK(same(bench.host.q[148], 0));
-  CHECK(same(bench.host.q[149], -0.05));
+  check_q(bench, {{147, 0.03}, {148, 0}, {149, -0.05}});
   CHECK(bench.host.q[142] > 0.01);
   CHECK(same(bench.host.q[145], 0));
   CHECK(norm(model_of(bench, Axis::B).direction - head.built(Axis::B).direction) < 1e-9);
@@ -184,9 +179,7 @@ TEST_CASE("a turned preset gives the same results") {
   setup.machine.presets.front().frame.basic_rotation_deg = {0, 0, 30};
   SphereBench bench(setup);
   REQUIRE(bench.run(451, with(both_axes(4), {{380, 17.0}})) == 0);
-  CHECK(same(bench.host.q[147], -0.02));
-  CHECK(same(bench.host.q[148], 0.05));
-  CHECK(same(bench.host.q[144], 0));
+  check_q(bench, {{147, -0.02}, {148, 0.05}, {144, 0}});
 }
 
 TEST_CASE("of one position the error is known, and no direction is invented") {
@@ -195,9 +188,7 @@ TEST_CASE("of one position the error is known, and no direction is invented") {
   const Values block = with(with(kinematics_block(), measured(Axis::C, 180, 0, 1)), {{406, 2.0}});
   REQUIRE(bench.run(451, block) == 0);
   // Half a turn shows the location error twice.
-  CHECK(same(bench.host.q[143], to_length(2 * std::hypot(0.02, 0.05)).to_mm()));
-  CHECK(same(bench.host.q[146], 0));
-  CHECK(same(bench.host.q[147], -0.02));
+  check_q(bench, {{143, to_length(2 * std::hypot(0.02, 0.05)).to_mm()}, {146, 0}, {147, -0.02}});
   CHECK(model_of(bench, Axis::C).direction == Vec3{0, 0, 1});
   CHECK(contains(log_of(bench, 451), "cannot see the direction"));
   CHECK(contains(log_of(bench, 451), "Measured error of the position"));

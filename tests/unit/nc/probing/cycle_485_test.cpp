@@ -91,8 +91,7 @@ TEST_CASE("485: wear and breakage count for both lengths, and only a check locks
     LatheBench bench(setup);
     const machine::Tool before = bench.tool();
     CHECK(bench.run(485, order(c.mode)) == 0);
-    CHECK(same(bench.host.q[115], -0.03));
-    CHECK(same(bench.host.q[116], 0.02));
+    check_q(bench, {{115, -0.03}, {116, 0.02}});
     CHECK(bench.host.q[199] == c.status);
     CHECK(bench.tool().locked == c.locked);
     if (c.mode == 2) CHECK(bench.tool() == before);

@@ -28,8 +28,7 @@ TEST_CASE("TCH PROBE 0 gives the compensated coordinate and comes back to its po
 
   BesideThePlate side;
   CHECK(side.run(0, values("result=5 axis=0 direction=1 X=-8")) == 0);
-  CHECK(same(side.host.q[5], 0));
-  CHECK(same(side.host.q[115], -2));
+  check_q(side, {{5, 0}, {115, -2}});
   CHECK(side.run(0, values("result=5 axis=0 direction=-1")) == 1014);
   CHECK(side.run(0, values("result=5 axis=0 direction=0")) == 1042);
 }
@@ -45,9 +44,7 @@ TEST_CASE("TCH PROBE 3 gives the uncompensated position, or -1 without contact")
   BesideThePlate bench;
   const Values block = values("result=1 axis=0 angle=0 distance=10 feed=100 retract=1");
   CHECK(bench.run(3, block) == 0);
-  CHECK(same(bench.host.q[1], -2));
-  CHECK(same(bench.host.q[2], 40));
-  CHECK(same(bench.host.q[3], -5));
+  check_q(bench, {{1, -2}, {2, 40}, {3, -5}});
   CHECK(bench.host.q[4] == 0);
   CHECK(same(bench.machine.position().linear.x, -3));
   CHECK(bench.run(3, with(block, values("system=1"))) == 0);

@@ -15,12 +15,6 @@ const Values kDatum{{305, 9.0}, {303, 1.0}, {331, 1.0}, {332, 2.0}};
 /// And 3 in the probe axis, touched beside the feature.
 const Values kProbeAxis{{381, 1.0}, {382, 20.0}, {383, 20.0}, {384, 0.0}, {333, 3.0}};
 
-std::vector<machine::Feature> pocket(double x1, double y1, double x2, double y2) {
-  return {Block{.min = {0, 0, -40}, .max = {x1, 160, 0}},
-          Block{.min = {x2, 0, -40}, .max = {200, 160, 0}},
-          Block{.min = {x1, 0, -40}, .max = {x2, y1, 0}},
-          Block{.min = {x1, y2, -40}, .max = {x2, 160, 0}}};
-}
 std::vector<machine::Feature> stud(double x1, double y1, double x2, double y2) {
   return {kPlate, Block{.min = {x1, y1, 0}, .max = {x2, y2, 20}}};
 }
@@ -39,14 +33,12 @@ TEST_CASE("408 and 409 set the datum in the middle of a slot and a ridge") {
   for (const double via_clearance : {0.0, 1.0}) {
     ProbingBench slot(pocket(85.1, 20, 115.3, 140));
     CHECK(slot.run(408, with(block, {{272, 1.0}, {301, via_clearance}})) == 0);
-    CHECK(same(slot.host.q[157], 100.2));
-    CHECK(same(slot.host.q[166], 30.2));
+    check_q(slot, {{157, 100.2}, {166, 30.2}});
     check_near(slot.preset(9).origin, {99.2, 0, 0});
   }
   ProbingBench ridge(stud(60, 64.9, 140, 95));
   CHECK(ridge.run(409, with(with(block, {{272, 2.0}, {261, 5.0}}), kProbeAxis)) == 0);
-  CHECK(same(ridge.host.q[157], 79.95));
-  CHECK(same(ridge.host.q[166], 30.1));
+  check_q(ridge, {{157, 79.95}, {166, 30.1}});
   check_near(ridge.preset(9).origin, {0, 78.95, -3});
 }
 
@@ -73,10 +65,7 @@ TEST_CASE("414 and 415 find each corner of a part that stands turned in its pres
         setup.machine.start[machine::Axis::X] = 100 - c.main * 30;
         setup.machine.start[machine::Axis::Y] = 80 - c.secondary * 30;
         ProbingBench bench(setup);
-        machine::Preset turned{.number = 2, .comment = {}, .frame = {}};
-        turned.frame.basic_rotation_deg = {0, 0, -2};
-        REQUIRE(bench.machine.write_preset(turned).has_value());
-        REQUIRE(bench.machine.activate_preset(2).has_value());
+        bench.activate_turned_preset(-2);
         const auto local = [&](double x, double y) {
           return bench.machine.state().frames.from_machine(corner + Vec3{x, y, 0});
         };
@@ -133,10 +122,7 @@ TEST_CASE("419 sets the datum in any one axis") {
 
 TEST_CASE("presets in a rotated preset move along its own axes") {
   ProbingBench bench({Plane{}, Bore{.centre = {100, 80}, .top = 0, .depth = 30, .diameter = 25}});
-  machine::Preset turned{.number = 2, .comment = {}, .frame = {}};
-  turned.frame.basic_rotation_deg = {0, 0, 30};
-  REQUIRE(bench.machine.write_preset(turned).has_value());
-  REQUIRE(bench.machine.activate_preset(2).has_value());
+  bench.activate_turned_preset(30);
   const Vec3 centre = bench.machine.state().frames.from_machine({100, 80, 0});
   CHECK(bench.run(412, with(with(values("262=25 247=90 261=-5 260=40 305=2 303=1"),
                                  {{321, centre.x + 0.2}, {322, centre.y}}),

@@ -52,10 +52,13 @@ inline Values values(const std::string& text) {
 }
 
 inline const machine::Block kPlate{{0, 0, -40}, {200, 160, 0}};
+/// The plate with a rectangular hole between these places.
+inline std::vector<machine::Feature> pocket(double x1, double y1, double x2, double y2) {
+  return {machine::Block{{0, 0, -40}, {x1, 160, 0}}, machine::Block{{x2, 0, -40}, {200, 160, 0}},
+          machine::Block{{x1, 0, -40}, {x2, y1, 0}}, machine::Block{{x1, y2, -40}, {x2, 160, 0}}};
+}
 /// 60 by 40 mm around (100, 80) of the plate.
-inline const std::vector<machine::Feature> kPocket{
-    machine::Block{{0, 0, -40}, {70, 160, 0}}, machine::Block{{130, 0, -40}, {200, 160, 0}},
-    machine::Block{{70, 0, -40}, {130, 60, 0}}, machine::Block{{70, 100, -40}, {130, 160, 0}}};
+inline const std::vector<machine::Feature> kPocket = pocket(70, 60, 130, 100);
 
 /// Material beyond an edge 30 mm from the zero, at an angle to the main axis.
 inline machine::Plane edge_at(double angle_deg) {
@@ -89,6 +92,14 @@ class ProbingBench {
     const machine::Preset* found = machine.state().presets.find(row);
     REQUIRE(found != nullptr);
     return found->frame;
+  }
+
+  /// Writes row 2, with a basic rotation alone, and activates it.
+  void activate_turned_preset(double degrees) {
+    machine::Preset turned{.number = 2, .comment = {}, .frame = {}};
+    turned.frame.basic_rotation_deg = {0, 0, degrees};
+    REQUIRE(machine.write_preset(turned).has_value());
+    REQUIRE(machine.activate_preset(2).has_value());
   }
 
   /// One axis, with the others where they are.
@@ -133,5 +144,15 @@ inline bool contains(const std::string& text, std::string_view part) {
 
 /// Equal as the control's 1 nm results are.
 inline bool same(double a, double b) { return std::abs(a - b) < 5e-10; }
+
+/// Checks Q parameters, as equal as the control's 1 nm results are.
+inline void check_q(ProbingBench& bench, const std::vector<std::pair<int, double>>& expected) {
+  for (const auto& each : expected) {
+    CAPTURE(each.first);
+    CAPTURE(each.second);
+    const double deviation = bench.host.q[each.first] - each.second;
+    CHECK(std::abs(deviation) < 5e-10);
+  }
+}
 
 }  // namespace fitgauge::probing

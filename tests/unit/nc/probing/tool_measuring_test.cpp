@@ -112,8 +112,7 @@ TEST_CASE("Q340 = 2 compares and writes nothing") {
   TtBench bench(setup);
   const machine::Tool before = bench.mill();
   CHECK(bench.run(483, {{340, 2.0}, {260, 200.0}}) == 0);
-  CHECK(same(bench.host.q[115], -0.03));
-  CHECK(same(bench.host.q[116], -0.012));
+  check_q(bench, {{115, -0.03}, {116, -0.012}});
   CHECK(bench.host.q[199] == 1);
   CHECK(bench.mill() == before);
 }
