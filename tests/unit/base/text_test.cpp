@@ -71,3 +71,8 @@ TEST_CASE("a comparison in constant time sees every byte") {
   CHECK_FALSE(equal_in_constant_time(a, b));
   CHECK_FALSE(equal_in_constant_time(a, {}));
 }
+
+TEST_CASE("a failed check names its row, not the row's address") {
+  const char* const row = "twelve";
+  CHECK(doctest::toString(row) == "twelve");
+}
