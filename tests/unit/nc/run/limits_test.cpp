@@ -62,8 +62,10 @@ TEST_CASE("an endless loop ends at the budget of time") {
   Control control;
   control.options.limits.blocks = UINT32_MAX;
   control.options.limits.time = std::chrono::milliseconds(20);
-  CHECK(outcome(control.run("LBL 1\nFN 9: IF +1 EQU +1 GOTO LBL 1")) ==
-        "limit_exceeded line 3: the run has taken its limit of 0.02 seconds");
+  // At the label or at the jump: the clock decides.
+  const std::string ended = outcome(control.run("LBL 1\nFN 9: IF +1 EQU +1 GOTO LBL 1"));
+  CHECK(ended.starts_with("limit_exceeded line "));
+  CHECK(ended.ends_with(": the run has taken its limit of 0.02 seconds"));
   CHECK(control.run("LBL 1\nL X+1 FMAX\nL X+0 FMAX\nFN 9: IF +1 EQU +1 GOTO LBL 1").status ==
         RunStatus::LimitExceeded);
 }
