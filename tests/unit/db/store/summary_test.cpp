@@ -252,7 +252,7 @@ TEST_CASE("a summary is what a pass over the rows gives, whatever the index hold
   shop.index(1'000'000);
   REQUIRE(shop.count("measurement_nodes WHERE stale = 1") == 0);
   shop.check("mended");
-  CHECK(shop.database->verify()->findings.empty());
+  if (is_deep) CHECK(shop.database->verify()->findings.empty());
 
   // As an earlier release leaves it.
   shop.execute("DELETE FROM measurement_columns");
