@@ -96,7 +96,6 @@ constexpr Code kAnyCycle{0, Cycle, {}};
 using klartext::Lexer;
 
 constexpr unsigned kLargestCode = 9999;
-constexpr unsigned kLargestLabel = 65534;
 constexpr unsigned kMostP = 99;
 /// Maximum number of words in a block; a long line of them would use a multiple of its bytes.
 constexpr std::size_t kMostWords = 1000;
@@ -225,7 +224,7 @@ std::string_view read_label(Lexer& in) {
   in.skip_blanks();
   if (!klartext::is_digit(in.peek())) return read_value(in);
   const char* begin = in.at();  // the comma after it is not a decimal comma
-  in.digits(kLargestLabel, "the label");
+  in.digits(klartext::kLargestLabel, "the label");
   return between(begin, in.at());
 }
 

@@ -11,7 +11,6 @@ using klartext::DiagnosticCode;
 using klartext::Program;
 using klartext::Slice;
 
-constexpr std::size_t kLongestShownLine = 1000;
 /// In a longer line, a finding names the whole block.
 constexpr std::size_t kLongestSearched = 1000;
 
@@ -80,8 +79,7 @@ void set_place(Diagnostic& diagnostic, const Program& program, Slice<char> place
   diagnostic.remedies.clear();  // in the words of Klartext
   if (diagnostic.range.end.line != diagnostic.range.begin.line)
     diagnostic.range.end = diagnostic.range.begin;
-  diagnostic.source =
-      std::string(first_characters(program.line(diagnostic.range.begin.line), kLongestShownLine));
+  diagnostic.source = std::string(klartext::shown(program.line(diagnostic.range.begin.line)));
 }
 
 klartext::ParsedProgram parse_iso(std::string source, std::string name) {

@@ -8,15 +8,15 @@ namespace {
 
 using klartext::DiagnosticCode;
 using klartext::is_digit;
+using klartext::kLargestBlockNumber;
+using klartext::kLargestCycle;
 using klartext::Slice;
 
 /// Longer Klartext is refused; this bounds the memory of a translation.
 constexpr std::size_t kLargestKlartext = std::size_t{16} << 20;
 /// More than the parser keeps; it keeps the first of a text.
 constexpr std::size_t kMostFindings = 250;
-constexpr unsigned kLargestBlockNumber = 999'999'999;
 constexpr unsigned kLargestFunction = 99;
-constexpr unsigned kLargestCycle = 9999;
 
 /// Returns whether it is a word of Klartext, which controls accept in DIN/ISO programs too.
 bool is_klartext_word(std::string_view name) {

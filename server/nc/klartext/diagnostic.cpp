@@ -30,12 +30,11 @@ std::string caret_line(const Diagnostic& diagnostic) {
 /// Findings beyond this number are counted, not kept.
 constexpr std::size_t kMostDiagnostics = 200;
 
-/// A longer line is cut: two hundred findings in a line of megabytes must stay small.
 constexpr std::size_t kLongestShownLine = 1000;
 
-std::string_view shown(std::string_view line) { return first_characters(line, kLongestShownLine); }
-
 }  // namespace
+
+std::string_view shown(std::string_view line) { return first_characters(line, kLongestShownLine); }
 
 std::string_view word(Severity severity) { return word_of(severity, {"note", "warning", "error"}); }
 

@@ -58,6 +58,10 @@ struct Diagnostic {
   std::vector<DiagnosticRemedy> remedies{};
 };
 
+/// A line as findings show it: a longer one is cut, as two hundred findings in a line of megabytes
+/// must stay small.
+std::string_view shown(std::string_view line);
+
 /// Returns whether one of them refuses the text.
 bool contains_error(const std::vector<Diagnostic>& diagnostics);
 

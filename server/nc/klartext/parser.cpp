@@ -6,8 +6,6 @@
 namespace fitgauge::klartext {
 namespace {
 
-constexpr std::uint32_t kLargestBlockNumber = 999'999'999;
-
 /// Splits a source into logical lines and makes a block of each.
 class Parser {
  public:

@@ -6,8 +6,6 @@
 namespace fitgauge::klartext {
 namespace {
 
-constexpr std::uint32_t kLargestCycle = 9999;
-
 /// Reads the free text after the cycle's number: up to the first parameter, a comment or line end.
 Text parse_dialog(BlockReader& in) {
   const char* begin = in.at();

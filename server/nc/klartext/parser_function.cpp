@@ -102,7 +102,6 @@ Statement parse_system_read(BlockReader& in) {
                     .value = parse_system_address(in, Operator::SystemRead)};
 }
 
-constexpr std::uint32_t kLargestLabel = 65534;
 constexpr std::size_t kLongestLabelName = 32;
 
 constexpr std::string_view kParameterMark = ":'";

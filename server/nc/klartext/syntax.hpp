@@ -4,6 +4,11 @@
 
 namespace fitgauge::klartext {
 
+/// The largest numbers that a program can name.
+inline constexpr unsigned kLargestBlockNumber = 999'999'999;
+inline constexpr unsigned kLargestCycle = 9999;
+inline constexpr unsigned kLargestLabel = 65534;
+
 /// One logical line: optional skip mark `/`, optional block number, statement, optional comment.
 struct Block {
   [[no_unique_address]] Statement statement{};  ///< its last bytes are used by derived data
