@@ -48,7 +48,7 @@ struct RealMachine {
   }
 };
 
-std::uint64_t seeds() { return static_cast<std::uint64_t>(rounds(27, 1'000)); }
+std::uint64_t fit_seeds() { return static_cast<std::uint64_t>(rounds(27, 1'000)); }
 
 /// What is planted beside errors of location.
 struct Planted {
@@ -57,9 +57,9 @@ struct Planted {
 };
 
 /// A machine, what the control takes it for, and how it is measured.
-class Case {
+class FitCase {
  public:
-  Case(std::uint64_t seed, Planted planted) : random_(seed) {
+  FitCase(std::uint64_t seed, Planted planted) : random_(seed) {
     const auto& kinds = kinds_of_machines();
     for (const auto& [axis, mount] : kinds[seed % kinds.size()]) {
       const std::size_t letter = index(axis) - 3;
@@ -167,9 +167,9 @@ Kinematics one_after_the_other(const std::vector<PoseGroup>& groups, const std::
 
 TEST_CASE("locations of any machine are found at once, at poses that nobody measured too") {
   int wrong_by_old_order = 0;
-  for (std::uint64_t seed = 1; seed <= seeds(); ++seed) {
+  for (std::uint64_t seed = 1; seed <= fit_seeds(); ++seed) {
     CAPTURE(seed);
-    Case c(seed, {});
+    FitCase c(seed, {});
     const auto groups = c.measured();
     const auto axes = c.axes();
     const KinematicsFit fit =
@@ -184,13 +184,13 @@ TEST_CASE("locations of any machine are found at once, at poses that nobody meas
     const Kinematics old = one_after_the_other(groups, axes, c.model());
     if (c.seen_elsewhere(old) > 1e-3) ++wrong_by_old_order;
   }
-  CHECK(wrong_by_old_order > static_cast<int>(seeds()) / 4);
+  CHECK(wrong_by_old_order > static_cast<int>(fit_seeds()) / 4);
 }
 
 TEST_CASE("directions are found with the locations") {
-  for (std::uint64_t seed = 1; seed <= seeds(); ++seed) {
+  for (std::uint64_t seed = 1; seed <= fit_seeds(); ++seed) {
     CAPTURE(seed);
-    Case c(seed, {.tilts = true});
+    FitCase c(seed, {.tilts = true});
     const auto groups = c.measured();
     const KinematicsFit fit = fit_kinematics(groups, c.model(), kProbe, c.axes(), {});
     CHECK(c.seen_elsewhere(fit.corrected) < 1e-6);
@@ -208,11 +208,11 @@ TEST_CASE("directions are found with the locations") {
 TEST_CASE("zeros of axes that carry others are found with the rest") {
   int found = 0;
   int wrong_by_locations = 0;
-  for (std::uint64_t seed = 1; seed <= seeds(); ++seed) {
+  for (std::uint64_t seed = 1; seed <= fit_seeds(); ++seed) {
     CAPTURE(seed);
-    Case c(seed, {.tilts = true, .zeros = true});
+    FitCase c(seed, {.tilts = true, .zeros = true});
     const auto groups = c.measured();
-    const auto fitted = [&](Case& of, const FitOptions& options) {
+    const auto fitted = [&](FitCase& of, const FitOptions& options) {
       return fit_kinematics(of.measured(), of.model(), kProbe, of.axes(), options);
     };
     const KinematicsFit fit = fitted(c, {.zeros = true});
@@ -224,7 +224,7 @@ TEST_CASE("zeros of axes that carry others are found with the rest") {
     }
     wrong_by_locations += c.seen_elsewhere(fitted(c, {.directions = false}).corrected) > 1e-3;
     // Where no axis is tilted itself, the tilt it seems to have is its carrier's zero.
-    Case straight(seed, {.zeros = true});
+    FitCase straight(seed, {.zeros = true});
     for (const AxisErrors& errors : fitted(straight, {.zeros = true}).errors) {
       if (!errors[ErrorKind::Zero]) continue;
       ++found;
@@ -234,16 +234,16 @@ TEST_CASE("zeros of axes that carry others are found with the rest") {
       CHECK(norm(errors[ErrorKind::Zero]->value - planted) < 1e-6);
     }
   }
-  CHECK(wrong_by_locations > static_cast<int>(seeds()) * 9 / 10);
-  CHECK(found > static_cast<int>(seeds()) / 2);
+  CHECK(wrong_by_locations > static_cast<int>(fit_seeds()) * 9 / 10);
+  CHECK(found > static_cast<int>(fit_seeds()) / 2);
 }
 
 TEST_CASE("with a scatter of 1 um the claimed uncertainty covers 95 %") {
   int claims = 0;
   int covered = 0;
   int half_covered = 0;
-  for (std::uint64_t seed = 1; seed <= 2 * seeds(); ++seed) {
-    Case c(seed, {});
+  for (std::uint64_t seed = 1; seed <= 2 * fit_seeds(); ++seed) {
+    FitCase c(seed, {});
     const auto axes = c.axes();
     const KinematicsFit fit =
         fit_kinematics(c.measured(0.001), c.model(), kProbe, axes, {.directions = false});
@@ -269,7 +269,7 @@ TEST_CASE("with a scatter of 1 um the claimed uncertainty covers 95 %") {
 }
 
 TEST_CASE("an error below twice its uncertainty is left as it is") {
-  Case c(1, {});
+  FitCase c(1, {});
   const auto groups = c.measured(0.05);
   const auto axes = c.axes();
   const Kinematics right = Kinematics(c.real().axes);
