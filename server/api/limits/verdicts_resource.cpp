@@ -6,14 +6,14 @@
 namespace fitgauge::api {
 namespace {
 
-using Kind = gauging::DecisionRule::Kind;
+using VerdictRule = gauging::DecisionRule::Kind;
 
 /// Parameters that change nothing without another one, which the reason names.
 struct Unused {
   std::string_view name;
   std::string_view reason;
 };
-std::vector<Unused> unused_of(const Request& request, Kind rule) {
+std::vector<Unused> unused_of(const Request& request, VerdictRule rule) {
   std::vector<Unused> unused;
   const auto without = [&](bool is_there, std::string_view reason,
                            std::initializer_list<std::string_view> names) {
@@ -31,8 +31,8 @@ std::vector<Unused> unused_of(const Request& request, Kind rule) {
   without(scale_expands, "without scale_material or scale_expansion_um_per_m_k",
           {"scale_temperature_c", "scale_temperature_uncertainty_c",
            "scale_expansion_uncertainty_um_per_m_k"});
-  without(rule == Kind::GuardBand, "without rule=guard_band", {"coverage_factor"});
-  without(rule == Kind::Conformance, "without rule=conformance", {"probability"});
+  without(rule == VerdictRule::GuardBand, "without rule=guard_band", {"coverage_factor"});
+  without(rule == VerdictRule::Conformance, "without rule=conformance", {"probability"});
   without(request.has("uncertainty_um"), "without uncertainty_um", {"degrees_of_freedom"});
   without(of_iso286, "here: it belongs to the tables of ISO 286", {"revision"});
   without(!of_iso286, "here: the class of ISO 286 gives it", {"feature"});
@@ -111,7 +111,7 @@ Result<Response> verdict(const Request& request, const iso286::ToleranceTables& 
   }
   const std::optional<Length> given = request.length("uncertainty_um");
   if (given) TRY(check_uncertainty(*given));
-  if (given && kind == Kind::Simple) {
+  if (given && kind == VerdictRule::Simple) {
     return Error{ErrorCode::QueryUnused,
                  "rule simple does not use uncertainty_um: give rule=guard_band or "
                  "rule=conformance, or remove it",
