@@ -24,7 +24,7 @@ target_compile_options(fitgauge_options INTERFACE
   # Objects and error texts carry no path of the machine that built them.
   "-ffile-prefix-map=${CMAKE_SOURCE_DIR}/=" "-ffile-prefix-map=${CMAKE_BINARY_DIR}/include/=")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # A tenth of the compiler's time is its search for memory to use again; a file takes 1.2 GB at most without it.
+  # A tenth of the compiler's time is its search for memory to use again; a unit takes 2.2 GB at most without it.
   target_compile_options(fitgauge_options INTERFACE --param=ggc-min-heapsize=1048576)
 endif()
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
@@ -78,9 +78,9 @@ endfunction()
 fitgauge_precompile(precompiled HEADERS "${prelude}" LINKS Boost::headers fmt::fmt)
 
 # fitgauge_unity(<target> <folder> [SEPARATE <regex>])
-# Where CMAKE_UNITY_BUILD is on, the target's files compile in groups of about 2,500 lines: whole folders together, a
+# Where CMAKE_UNITY_BUILD is on, the target's files compile in groups of about 5,000 lines: whole folders together, a
 # larger folder in equal parts. Files that match <regex> stay alone.
-set(unity_bytes 100000)
+set(unity_bytes 200000)
 function(fitgauge_unity target folder)
   cmake_parse_arguments(arg "" "SEPARATE" "" ${ARGN})
   get_target_property(sources ${target} SOURCES)
