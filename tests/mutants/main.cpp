@@ -1,6 +1,7 @@
 #include <fmt/ranges.h>
 
 #include "support/deep.hpp"
+#include "support/files.hpp"
 #include "trial.hpp"
 
 /// Draws mutants of the right programs of the tree, checks each and runs it on the part that its
@@ -21,7 +22,6 @@ namespace fitgauge::mutants {
 namespace {
 
 namespace fs = std::filesystem;
-using interpreter::golden::read_file;
 
 struct Options {
   std::uint64_t seed = 1;
@@ -67,7 +67,7 @@ struct Originals {
 
 void add(Originals& originals, Subject subject) {
   Original original{std::move(subject), "", {}, {}};
-  original.text = read_file(original.subject.folder / original.subject.file);
+  original.text = content_of(original.subject.folder / original.subject.file);
   original.outcome = outcome_of(original.subject, original.text);
   const Outcome& outcome = original.outcome;
   for (const Finding& alarm : outcome.alarms)
@@ -75,7 +75,7 @@ void add(Originals& originals, Subject subject) {
   originals.alarms += outcome.alarms.size();
   if (outcome.faces.empty() && !outcome.tests_itself) return;
   const fs::path called = original.subject.folder / "82551.h";
-  original.sites = sites_of(original.text, fs::exists(called) ? read_file(called) : "");
+  original.sites = sites_of(original.text, fs::exists(called) ? content_of(called) : "");
   // A block that is not reached does nothing to the part.
   std::erase_if(original.sites, [&](const Site& site) {
     return site.kind != Kind::Unit && !outcome.lines.contains(site.first_line);
@@ -89,7 +89,7 @@ Originals originals() {
   std::set<fs::path> folders{fs::directory_iterator(golden), fs::directory_iterator()};
   for (const fs::path& folder : folders) {
     const std::string setup =
-        fs::exists(folder / "setup.txt") ? read_file(folder / "setup.txt") : "";
+        fs::exists(folder / "setup.txt") ? content_of(folder / "setup.txt") : "";
     if (fs::exists(folder / "main.h")) add(all, {folder, setup, "main.h", "main.h"});
     if (fs::exists(folder / "main.i")) add(all, {folder, setup, "main.i", "main.i"});
   }

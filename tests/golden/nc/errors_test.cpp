@@ -9,6 +9,7 @@
 #include "nc/probing/cycle_descriptor.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/program/program_cache.hpp"
+#include "support/files.hpp"
 
 /// The errors of each cycle, as errors.txt says how to come by them.
 namespace fitgauge::interpreter::golden {
@@ -19,11 +20,6 @@ using probing::CycleDescriptor;
 
 const fs::path kCases = fs::path(FITGAUGE_SOURCE_DIR) / "tests/golden/nc";
 using Lines = std::vector<std::string>;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// The trimmed parts of a text.
 Lines split_text(const std::string& text, char separator) {
@@ -59,7 +55,7 @@ std::set<int> cycles_in(const std::string& list) {
 
 std::vector<ErrorRow> error_rows() {
   std::vector<ErrorRow> rows;
-  for (const std::string& line : split_text(text_of(kCases / "errors.txt"), '\n')) {
+  for (const std::string& line : split_text(content_of(kCases / "errors.txt"), '\n')) {
     if (line.empty() || line.front() == '#') continue;
     Lines fields = split_text(line, '|');
     fields.resize(4);
@@ -80,11 +76,11 @@ fs::path folder_of(int cycle) {
 class FirstBlock {
  public:
   explicit FirstBlock(int cycle) {
-    setup_ = text_of(folder_of(cycle) / "setup.txt");
+    setup_ = content_of(folder_of(cycle) / "setup.txt");
     const std::string family = cycle == 247 ? "CYCL DEF" : "TCH PROBE";
     const std::string head = fmt::format("{} {}", family, cycle);
     bool is_other = false;
-    for (std::string line : split_text(text_of(folder_of(cycle) / "main.h"), '\n')) {
+    for (std::string line : split_text(content_of(folder_of(cycle) / "main.h"), '\n')) {
       line.erase(0, line.find_first_not_of("0123456789 "));
       const bool goes_on = line.ends_with('~');
       if (!block_.empty()) {
@@ -269,7 +265,7 @@ TEST_CASE("each cycle with a status shows each of its values") {
       if (!values.contains(result.q)) continue;
       std::set<std::string> missing = values.at(result.q);
       for (const std::string& line :
-           split_text(text_of(folder_of(descriptor.number) / "expected.txt"), '\n')) {
+           split_text(content_of(folder_of(descriptor.number) / "expected.txt"), '\n')) {
         if (line.starts_with("Q16")) missing.erase(line.substr(line.find('=') + 2));
       }
       CHECK(missing.empty());

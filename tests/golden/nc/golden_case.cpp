@@ -1,7 +1,5 @@
 #include "golden_case.hpp"
 
-#include <fstream>
-
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/program/program_cache.hpp"
 #include "tables/tabfile/iso286_projection.hpp"
@@ -10,11 +8,6 @@
 namespace fitgauge::interpreter::golden {
 
 namespace fs = std::filesystem;
-
-std::string read_file(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 namespace {
 
@@ -75,13 +68,13 @@ ProjectingDisk::Projection projection(const iso286::ToleranceTables& tables,
 }  // namespace
 
 Case::Case(const fs::path& folder)
-    : Case(folder, fs::exists(folder / "setup.txt") ? read_file(folder / "setup.txt") : "") {}
+    : Case(folder, fs::exists(folder / "setup.txt") ? content_of(folder / "setup.txt") : "") {}
 
 Case::Case(const fs::path& folder, const std::string& setup) : setup_(read_setup(setup)) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     if (entry.is_regular_file() && name != "setup.txt" && name != "expected.txt")
-      add(name, read_file(entry.path()));
+      add(name, content_of(entry.path()));
   }
 }
 

@@ -6,14 +6,13 @@
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/program/control_disk.hpp"
 #include "nc/program/program_cache.hpp"
+#include "support/files.hpp"
 #include "support/tracing_machine.hpp"
 
 namespace fitgauge::interpreter::golden {
 
 inline const std::filesystem::path kFolder =
     std::filesystem::path(FITGAUGE_SOURCE_DIR) / "tests/golden/nc";
-
-std::string read_file(const std::filesystem::path& path);
 
 /// A run, every command to its machine, a line each, and the touched points in machine coordinates.
 struct Ran {

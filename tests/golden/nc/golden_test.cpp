@@ -27,7 +27,7 @@ TEST_CASE("each folder runs as expected") {
     if (std::getenv("FITGAUGE_GOLDEN_WRITE") != nullptr) {
       std::ofstream(folder / "expected.txt", std::ios::binary) << outcome;
     }
-    CHECK(outcome == read_file(folder / "expected.txt"));
+    CHECK(outcome == content_of(folder / "expected.txt"));
   }
   CHECK(cases > 0);
 }
@@ -45,13 +45,13 @@ TEST_CASE("each DIN/ISO twin runs as its Klartext program") {
     ++cases;
     CAPTURE(folder.filename().string());
     Case twin(folder);
-    twin.add("main.h", read_file(folder / "main.i"));
+    twin.add("main.h", content_of(folder / "main.i"));
     for (const auto& found : twin.diagnostics("main.h")) {
       CAPTURE(klartext::render(found));
       CHECK(found.severity != klartext::Severity::Error);
       CHECK(found.code != klartext::DiagnosticCode::ModalStateAssumed);
     }
-    CHECK(without_lines(twin.run("main.h")) == without_lines(read_file(folder / "expected.txt")));
+    CHECK(without_lines(twin.run("main.h")) == without_lines(content_of(folder / "expected.txt")));
   }
   CHECK(cases >= 50);
 }
@@ -77,7 +77,7 @@ TEST_CASE("each program and its conversion run the same, and it converts back to
       ++cases;
       CAPTURE(folder.filename().string());
       const std::string other = name == "main.h" ? "main.i" : "main.h";
-      const std::string text = converted(read_file(folder / name), name);
+      const std::string text = converted(content_of(folder / name), name);
       CAPTURE(text);
       Case twin(folder);
       twin.add("main.h", text);
@@ -86,7 +86,8 @@ TEST_CASE("each program and its conversion run the same, and it converts back to
         CHECK(found.severity != klartext::Severity::Error);
         CHECK(found.code != klartext::DiagnosticCode::ModalStateAssumed);
       }
-      CHECK(without_lines(twin.run("main.h")) == without_lines(read_file(folder / "expected.txt")));
+      CHECK(without_lines(twin.run("main.h")) ==
+            without_lines(content_of(folder / "expected.txt")));
       const std::string back = converted(text, other);
       CHECK(converted(converted(back, name), other) == back);
     }
@@ -101,7 +102,7 @@ TEST_CASE("each bad program ends as its first line says") {
     ++cases;
     const std::string name = file.filename().string();
     CAPTURE(name);
-    const std::string text = read_file(file);
+    const std::string text = content_of(file);
     const std::string first = text.substr(0, text.find('\n'));
     Case bad(name, text);
     const auto diagnostics = bad.diagnostics(name);

@@ -1,11 +1,10 @@
 #include <doctest/doctest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <random>
 
 #include "nc/iso/parser.hpp"
 #include "nc/klartext/parser.hpp"
+#include "support/files.hpp"
 #include "support/same_program.hpp"
 
 namespace fitgauge::iso {
@@ -17,9 +16,8 @@ std::vector<std::string> twins() {
   std::vector<std::string> found;
   for (const auto& folder :
        fs::directory_iterator(fs::path(FITGAUGE_SOURCE_DIR) / "tests/golden/nc")) {
-    std::ifstream in(folder.path() / "main.i", std::ios::binary);
-    if (in)
-      found.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    const fs::path twin = folder.path() / "main.i";
+    if (fs::exists(twin)) found.push_back(content_of(twin));
   }
   return found;
 }

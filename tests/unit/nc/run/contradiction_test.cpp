@@ -7,6 +7,7 @@
 #include "nc/probing/cycles.hpp"
 #include "nc/program/cycles.hpp"
 #include "run_fixture.hpp"
+#include "support/files.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -356,8 +357,7 @@ TEST_CASE("no right program of the tree raises an alarm") {
       const std::string path = entry.path().string();
       if (entry.path().extension() != ".h" || path.find("/bad/") != path.npos) continue;
       Control control;
-      std::ifstream in(path, std::ios::binary);
-      control.file("main.h", {std::istreambuf_iterator<char>(in), {}});
+      control.file("main.h", content_of(path));
       ++programs;
       for (const auto& found : control.diagnostics()) {
         const std::string_view code = id(found.code);

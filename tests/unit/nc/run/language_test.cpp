@@ -1,17 +1,14 @@
-#include <fstream>
 #include <sstream>
 
 #include "nc/klartext/parser.hpp"
 #include "run_fixture.hpp"
+#include "support/files.hpp"
 
 /// docs/reference/language.md says what runs: each line of its tables is tried.
 namespace fitgauge::interpreter {
 namespace {
 
-std::string page() {
-  std::ifstream in(FITGAUGE_SOURCE_DIR "/docs/reference/language.md");
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+constexpr const char* kPage = FITGAUGE_SOURCE_DIR "/docs/reference/language.md";
 
 /// A line of a table: its example and what it says of it.
 struct Construct {
@@ -21,7 +18,7 @@ struct Construct {
 
 std::vector<Construct> constructs() {
   std::vector<Construct> found;
-  std::istringstream lines(page());
+  std::istringstream lines(content_of(kPage));
   for (std::string line; std::getline(lines, line);) {
     const auto begin = line.find("| `");
     const auto end = line.rfind("` | ");
@@ -59,7 +56,7 @@ TEST_CASE("each construct of the language page is what the page says") {
 }
 
 TEST_CASE("the language page names each word that a block begins with") {
-  const std::string text = page();
+  const std::string text = content_of(kPage);
   for (const std::string_view word : klartext::block_keywords()) {
     CAPTURE(word);
     const auto found = std::search(text.begin(), text.end(), word.begin(), word.end());
