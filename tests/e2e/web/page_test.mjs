@@ -30,7 +30,7 @@ const VIEWS = {
 const MODES = { dark: { colorScheme: 'dark' }, ...(browserName === 'chromium' && { forced: { colorScheme: 'light', forcedColors: 'active' } }),
   light: { colorScheme: 'light', ...(browserName === 'chromium' && { forcedColors: 'none' }) } };
 
-/** Of a view in each mode another width, so that all views together have every width in every mode: people have pictures of these. */
+/** Whether people get a picture of it: of each view one in each mode. All views together show every width in every mode. */
 const isPictured = (view, width, mode) =>
   (Object.keys(VIEWS).indexOf(view) + Object.keys(MODES).indexOf(mode)) % WIDTHS.length === WIDTHS.indexOf(width);
 
