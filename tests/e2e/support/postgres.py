@@ -13,6 +13,9 @@ from support.ports import free_port
 from support.waiting import PATIENCE, wait_for
 
 SCRIPT = ROOT / "tests" / "support" / "postgres_cluster"
+# The environment of psql, pg_dump and pg_restore. Where one of them and a running service wait for each other's locks,
+# the service notices it first and has its transaction ended, which it tries again.
+PATIENT = {**os.environ, "PGOPTIONS": "-c deadlock_timeout=10min"}
 
 
 class Cluster:
@@ -63,7 +66,7 @@ class Cluster:
     def query(self, sql, database="postgres"):
         """Rows as lists of texts."""
         printed = subprocess.run(["psql", "-qAtX", "-v", "ON_ERROR_STOP=1", "-d", self.address(database), "-c", sql],
-                                 check=True, capture_output=True, text=True, timeout=PATIENCE).stdout
+                                 check=True, capture_output=True, text=True, timeout=PATIENCE, env=PATIENT).stdout
         return [line.split("|") for line in printed.splitlines()]
 
     def copy_files(self):
@@ -77,10 +80,12 @@ class Cluster:
     def dump(self, database, file):
         """As docs/guide/postgresql.md says."""
         with open(file, "wb") as out:
-            subprocess.run(["pg_dump", "--schema=fitgauge", "-Fc", self.address(database)], check=True, stdout=out, timeout=PATIENCE)
+            subprocess.run(["pg_dump", "--schema=fitgauge", "-Fc", self.address(database)], check=True, stdout=out,
+                           timeout=PATIENCE, env=PATIENT)
 
     def restore(self, database, file, *options):
-        subprocess.run(["pg_restore", "--exit-on-error", *options, "-d", self.address(database), file], check=True, timeout=PATIENCE)
+        subprocess.run(["pg_restore", "--exit-on-error", *options, "-d", self.address(database), file], check=True,
+                       timeout=PATIENCE, env=PATIENT)
 
     def cleanup(self):
         subprocess.run([SCRIPT, "stop", self.folder, "immediate"], check=False, stderr=subprocess.DEVNULL)
