@@ -125,7 +125,7 @@ class ReadOpen(Callers):
         file = self.daemon.data / "admin.key"
         self.assertEqual(file.stat().st_mode & 0o777, 0o600)
         token = file.read_text().strip()
-        self.assertIn(str(file), self.daemon.log)
+        self.daemon.wait_for_log(str(file))
         self.assertNotIn(token, self.daemon.log + self.daemon.output)
         self.assertEqual(self.daemon.get("/v1/measurements",
                                          Authorization=f"Bearer {token}").status, 200)

@@ -364,7 +364,7 @@ class Names(StorageTest):
         daemon.start()
         name = self.name_of(daemon)
         self.assertRegex(name, "^fitgauge/plant-3/press-7/[0-9a-f]{8}$")
-        self.assertIn(f"{first} continues as {name}", daemon.log)
+        daemon.wait_for_log(f"{first} continues as {name}")
         self.assertEqual(daemon.measure(PART).json["id"].split("-")[1][:8], name[-8:])
         self.assertEqual(daemon.stop(), 0)
         self.assertNotIn("log_name_kept", daemon.log)

@@ -84,7 +84,7 @@ class SharedDatabases(Restored):
         new += self.store(other, "n5")
         self.assert_unique(kept, lost, new)
         self.assertEqual(len({record.split("-")[1] for record in new}), 1, "one branch")
-        self.assertIn("the database was restored or moved", daemon.log)
+        daemon.wait_for_log("the database was restored or moved")
         self.assertEqual([record["id"] for record in other.stored()], kept + new)
         daemon.stop()
         daemon.start()
@@ -115,6 +115,7 @@ class SharedDatabases(Restored):
         finding, = daemon.get("/readyz").json["errors"]
         self.assertEqual(finding["code"], "storage.unavailable")
         self.assertIn("was restored, or is being restored", finding["detail"])
+        daemon.wait_for_log("was restored, or is being restored")
         self.assertEqual(daemon.log.count("was restored, or is being restored"), 1)
 
     def test_a_copy_as_long_as_a_service_knows_is_noticed(self):
