@@ -107,7 +107,7 @@ struct Route {
   std::string operation{};          ///< the operation's name in generated clients: `getLimits`
   std::string tag{};                ///< group of operations
   std::vector<Outcome> outcomes{};  ///< every success
-  /// Refusals in addition to those of parameters, body and access: 404, 409, 412, 422.
+  /// Refusals in addition to those of parameters, body and access: 404, 409, 412, 422, 503.
   std::vector<int> refusals{};
 };
 

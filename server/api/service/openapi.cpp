@@ -100,9 +100,7 @@ std::set<int> refusals_of(const http::Route& route) {
   if (!route.response_types.empty()) found.insert(406);
   if (takes_body) found.insert({411, 413, 415});
   if (has_json_body(route) || takes_length(route)) found.insert(422);
-  if (route.pattern.starts_with("/v1/") || route.pattern == "/readyz" ||
-      route.pattern == "/openapi.json")
-    found.insert(503);
+  if (route.pattern.starts_with("/v1/")) found.insert(503);
   return found;
 }
 
@@ -332,7 +330,8 @@ void add_openapi_route(Routes& add, const Schemas& of_plant) {
   add("GET /openapi.json getOpenapi open", http::SyncHandler{},
       {.summary = "This description",
        .tag = "service",
-       .outcomes = {{.meaning = "OpenAPI 3.1", .schema = "Description"}}});
+       .outcomes = {{.meaning = "OpenAPI 3.1", .schema = "Description"}},
+       .refusals = {503}});
   // Written for the first that asks, by a worker: it takes an eighth of a start.
   struct Description {
     std::vector<http::Route> routes;

@@ -106,7 +106,8 @@ void add_service_routes(Routes& add) {
   add("GET /readyz ready public",
       [&services = add.services](const Request&) { return ready(services); },
       {.summary = "The service may be used: database, schema and tables are in order",
-       .outcomes = {{.meaning = "No problem found", .schema = "Ready"}}});
+       .outcomes = {{.meaning = "No problem found", .schema = "Ready"}},
+       .refusals = {503}});
   add("GET /metrics getMetrics open", metrics,
       {.summary = "Counters for Prometheus",
        .response_types = {},
