@@ -131,9 +131,9 @@ class SharedDatabases(Restored):
         cluster.dump("postgres", dump := daemon.folder / "dump")
         begun = "SELECT count(*) FROM pg_stat_activity WHERE application_name = 'fitgauged' AND xact_start IS NOT NULL"
 
-        def is_paused():  # outside of a transaction
+        def is_paused():  # outside of a transaction, and with none on its way to the server
             daemon.process.send_signal(signal.SIGSTOP)
-            if cluster.query(begun) == [["0"]]:
+            if all(cluster.query(begun) == [["0"]] for _ in range(5)):
                 return True
             daemon.process.send_signal(signal.SIGCONT)
             return False
