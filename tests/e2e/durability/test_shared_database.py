@@ -283,7 +283,7 @@ class Together(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.cluster = Cluster("fsync=off").start()
+        cls.cluster = Cluster().start()
         cls.addClassCleanup(cls.cluster.cleanup)
         cls.one, cls.other = daemons_on(cls.cluster.address(), 2)
         cls.addClassCleanup(cls.one.cleanup)
@@ -430,7 +430,7 @@ class Together(unittest.TestCase):
 
 class Away(unittest.TestCase):
     def test_a_daemon_that_starts_while_the_server_is_away_waits_for_it(self):
-        cluster = Cluster("fsync=off").start()
+        cluster = Cluster().start()
         self.addCleanup(cluster.cleanup)
         cluster.stop("fast")
         daemon = Daemon("--database", cluster.address(), listen=lasting_address())
@@ -457,7 +457,7 @@ class Away(unittest.TestCase):
 
     def test_a_server_that_is_silent_is_given_up(self):
         """Its processes stand still, and the kernel accepts what they are sent."""
-        cluster = Cluster("fsync=off").start()
+        cluster = Cluster().start()
         self.addCleanup(cluster.cleanup)
         daemon = Daemon("--database", cluster.address()).start()
         self.addCleanup(daemon.cleanup)

@@ -42,7 +42,7 @@ class SharedDatabases(Restored):
         self.assert_clean(daemon, "--database", cluster.address("live"))
 
     def test_a_folder_of_another_database_joins_running_services(self):
-        cluster = Cluster("fsync=off").start()
+        cluster = Cluster().start()
         self.addCleanup(cluster.cleanup)
         daemon, other = self.made("--database", cluster.address()).start(), self.made().start()
         self.store(other, "f1")
@@ -65,7 +65,7 @@ class SharedDatabases(Restored):
         self.restore_a_dump((TRUNCATE, "live"), options=("--data-only", "--disable-triggers"))
 
     def restore_a_dump(self, *emptied, options=()):
-        cluster = Cluster("fsync=off").start()
+        cluster = Cluster().start()
         self.addCleanup(cluster.cleanup)
         cluster.query("CREATE DATABASE live")
         daemon, other = (self.made("--database", cluster.address("live")).start() for _ in range(2))
@@ -98,7 +98,7 @@ class SharedDatabases(Restored):
 
     def test_a_dump_is_restored_under_a_running_service(self):
         """It meets the tables while they are empty, and then the older copy."""
-        cluster = Cluster("fsync=off").start()
+        cluster = Cluster().start()
         self.addCleanup(cluster.cleanup)
         daemon = self.made("--database", cluster.address()).start()
         self.store(daemon, "d1")
@@ -124,7 +124,7 @@ class SharedDatabases(Restored):
                 self.restore_as_much_as_known(emptied, options)
 
     def restore_as_much_as_known(self, emptied, options):
-        cluster = Cluster("fsync=off").start()
+        cluster = Cluster().start()
         self.addCleanup(cluster.cleanup)
         daemon, other = (self.made("--database", cluster.address()).start() for _ in range(2))
         kept = self.store(daemon, "d1")
@@ -154,7 +154,7 @@ class SharedDatabases(Restored):
         self.assertEqual(len({record.split("-")[1] for record in new}), 1, "one branch")
 
     def test_a_server_is_set_back_under_running_services(self):
-        cluster = Cluster("fsync=off").start()
+        cluster = Cluster().start()
         self.addCleanup(cluster.cleanup)
         daemon, other = (self.made("--database", cluster.address()).start() for _ in range(2))
         kept = self.store(daemon, "d1")
@@ -188,7 +188,7 @@ class SharedDatabases(Restored):
 
     def test_a_server_that_was_set_back_and_has_grown_beyond_is_noticed(self):
         """By the content: the service stands still until the database has more than it knows."""
-        cluster = Cluster("fsync=off").start()
+        cluster = Cluster().start()
         self.addCleanup(cluster.cleanup)
         daemon = self.made("--database", cluster.address()).start()
         self.store(daemon, "d1")
@@ -214,7 +214,7 @@ class SharedDatabases(Restored):
 
     def test_a_restored_timeline_begins_a_branch(self):
         """As after a recovery to a point in time: the server and the database are the ones that were."""
-        cluster = Cluster("fsync=off").start()
+        cluster = Cluster().start()
         self.addCleanup(cluster.cleanup)
         daemon = self.made("--database", cluster.address()).start()
         kept = self.store(daemon, "d1")

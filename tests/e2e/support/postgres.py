@@ -19,11 +19,12 @@ PATIENT = {**os.environ, "PGOPTIONS": "-c deadlock_timeout=10min"}
 
 
 class Cluster:
-    """A server in a new folder, which commits to the disk; `settings` are lines of its configuration."""
+    """A server in a new folder; `settings` are lines of its configuration. It does not wait for its disk: tests end its
+    processes, not the machine."""
 
     def __init__(self, *settings):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="fitgauge-pg-"))
-        self.settings = settings
+        self.settings = ("fsync=off", *settings)
 
     def start(self):
         subprocess.run([SCRIPT, "start", self.folder, *self.settings], check=True, timeout=PATIENCE)
