@@ -262,7 +262,7 @@ class Taking(Folders):
         self.assertTrue(daemon.post("/v1/connections/out/test", None).json["ok"])
         daemon.measure({"designation": "25 H7", "measured_mm": 25.01})
         self.wait(lambda: (out / "out-000000000001-000000000001.csv").is_file())
-        self.assertEqual(daemon.get("/v1/connections/cmm").json["state"], "ok")
+        daemon.connection_in("cmm", "ok")
         self.assertEqual(daemon.stop(), 0)
 
     def test_no_folder_beside_those_allowed(self):

@@ -19,6 +19,7 @@ class WebhookSettings(Receivers):
         def sent(number):
             daemon.measure(part(number))
             receiver.wait(lambda: len(receiver.events) == number)
+            receiver.wait(lambda: self.state(daemon)["position"] == number)  # its answer is read: none comes again
             return {name: receiver.events[-1]["headers"].get(name.lower()) for name in headers}
 
         self.assertEqual(sent(1), headers)

@@ -282,7 +282,7 @@ TEST_CASE("a writer that never rests indexes, and purges what has expired, all t
       while (!stop) REQUIRE(fixture.append(rows).has_value());
     });
   }
-  constexpr int kMostLooks = 3'000;
+  constexpr int kMostLooks = 12'000;
   int looks = 0;
   while (looks++ < kMostLooks && (count("SELECT count(*) FROM measurement_nodes") < 3 ||
                                   count("SELECT count(*) FROM idempotent_answers") > 0)) {
