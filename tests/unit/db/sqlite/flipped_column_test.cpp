@@ -3,6 +3,7 @@
 #include "db/sql/statement.hpp"
 #include "db/sqlite/connection.hpp"
 #include "fixture.hpp"
+#include "support/deep.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::store;
@@ -181,14 +182,7 @@ std::string flip(const Column& column) {
 
 }  // namespace
 
-// One thread does all of it: ThreadSanitizer has nothing to find and takes minutes.
-#ifdef __SANITIZE_THREAD__
-constexpr bool kNotHere = true;
-#else
-constexpr bool kNotHere = false;
-#endif
-
-TEST_CASE("a changed value is found in every column of every table" * doctest::skip(kNotHere)) {
+TEST_CASE("a changed value is found in every column of every table" * doctest::skip(kIsForThreads)) {
   Everything sample;
   const auto columns = [&] {
     sqlite::Connection connection(sample.directory.file(), sqlite::Mode::Read);
