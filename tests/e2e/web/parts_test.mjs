@@ -254,7 +254,8 @@ describe('the parts', () => {
     await page.waitForSelector('.records a:has-text("SN-D")');
     const [old, , corrected] = await daemon.stored('order=WO-C&history=all');
     assert.deepEqual([corrected.part_id, corrected.measured_mm, corrected.correction_of, corrected.reason], ['SN-D', 25.01, old.id, 'scanned twice']);
-    assert.equal((await page.$$('.records tbody tr')).length, 2);
+    // The stream tells of the correction too: then the list is read once more.
+    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 2);
     await page.getByLabel('Also corrected values').check();
     await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 3);
     assert.equal(await page.locator('.records .corrected').getByRole('button', { name: 'Correct' }).count(), 0);
