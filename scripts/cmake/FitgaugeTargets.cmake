@@ -152,6 +152,14 @@ function(fitgauge_library name)
   fitgauge_unity(${name} "${CMAKE_CURRENT_SOURCE_DIR}" SEPARATE "${arg_SEPARATE}")
 endfunction()
 
+# fitgauge_precompiled(<target>)
+# A program takes the precompiled header of the libraries, and is compiled as they are.
+function(fitgauge_precompiled target)
+  target_precompile_headers(${target} REUSE_FROM precompiled)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+  target_compile_options(${target} PRIVATE -fPIC)
+endfunction()
+
 # fitgauge_doctest(<kind> <name> [FOLDER <folder>] [LINKS <targets>])
 # One doctest executable <kind>_<name> from every *.cpp below <folder> (default: <name>), and one ctest of the
 # same name, which also fails when the number of cases that ran differs from --count.
