@@ -272,7 +272,8 @@ class Runs(ControlTest):
 
     def test_blocks_of_a_long_watch_are_counted_beyond_4_mib(self):
         program = self.upload_program("long", "Q1 = 0", "LBL 1", "Q1 = Q1 + 1", "FN 12: IF +Q1 LT +50000 GOTO LBL 1")
-        run = self.daemon.post("/v1/runs", {"program": program, "watch": ["Q1"]}).json
+        run = self.daemon.post("/v1/runs", {"program": program, "watch": ["Q1"], "limits": LONG}).json
+        self.assertEqual(run["status"], "completed", run)
         trace = self.daemon.get(f"/v1/runs/{run['id']}/trace").json
         self.assertGreater(trace["blocks_dropped"], 0)
         self.assertEqual(len(trace["blocks"]) + trace["blocks_dropped"], 100_002)
