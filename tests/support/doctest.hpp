@@ -1,6 +1,7 @@
 #pragma once
 
-// A check is one call: what throws in it ends its case. A test compiles in five sixths of the time.
+// A check is one call: what throws in it ends its case. Tests are a twenty-fifth smaller, and
+// compile a little faster.
 #define DOCTEST_CONFIG_SUPER_FAST_ASSERTS
 #include <doctest/doctest.h>
 
