@@ -7,7 +7,8 @@ inline int rounds(int usual, int deep) {
   return std::getenv("TESTS_DEEP") == nullptr ? usual : deep;
 }
 
-/// Of a long case all of whose work one thread does: ThreadSanitizer has nothing to find in it and takes minutes.
+/// Of a long case all of whose work one thread does: ThreadSanitizer has nothing to find in it and
+/// takes minutes.
 #ifdef __SANITIZE_THREAD__
 inline constexpr bool kIsForThreads = true;
 #else

@@ -182,7 +182,8 @@ std::string flip(const Column& column) {
 
 }  // namespace
 
-TEST_CASE("a changed value is found in every column of every table" * doctest::skip(kIsForThreads)) {
+TEST_CASE("a changed value is found in every column of every table" *
+          doctest::skip(kIsForThreads)) {
   Everything sample;
   const auto columns = [&] {
     sqlite::Connection connection(sample.directory.file(), sqlite::Mode::Read);
