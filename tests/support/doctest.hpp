@@ -1,8 +1,5 @@
 #pragma once
 
-// A check is one call: what throws in it ends its case. Tests are a twenty-fifth smaller, and
-// compile a little faster.
-#define DOCTEST_CONFIG_SUPER_FAST_ASSERTS
 #include <doctest/doctest.h>
 
 /// doctest 2.4.9 prints the address of a text: CAPTURE(row.what) would not name its row.
