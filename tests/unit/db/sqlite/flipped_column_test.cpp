@@ -183,7 +183,7 @@ std::string flip(const Column& column) {
 }  // namespace
 
 TEST_CASE("a changed value is found in every column of every table" *
-          doctest::skip(kIsForThreads)) {
+          doctest::skip(kUnderThreadSanitizer)) {
   Everything sample;
   const auto columns = [&] {
     sqlite::Connection connection(sample.directory.file(), sqlite::Mode::Read);

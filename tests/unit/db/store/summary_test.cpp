@@ -234,7 +234,7 @@ TEST_CASE("a kind that no row has is not asked for, and is no damage") {
 }
 
 TEST_CASE("a summary is what a pass over the rows gives, whatever the index holds of them" *
-          doctest::skip(kIsForThreads)) {
+          doctest::skip(kUnderThreadSanitizer)) {
   const unsigned seed = std::random_device{}();
   CAPTURE(seed);
   Shop shop(seed);
