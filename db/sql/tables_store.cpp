@@ -21,7 +21,7 @@ std::vector<CellRow> rows_of(const std::vector<iso286::TableCell>& cells) {
     rows.emplace_back(name(table), column, range.over.count(), range.up_to.count(),
                       value ? std::optional(value->count()) : std::nullopt);
   }
-  std::ranges::sort(rows);
+  if (!std::ranges::is_sorted(rows)) std::ranges::sort(rows);
   return rows;
 }
 

@@ -9,23 +9,36 @@ namespace {
 
 constexpr std::string_view kSymmetric = "+-IT/2";
 
-/// The files are our own: unreadable data is a bug, so value() may throw.
+/// Appends the cells of a file, column by column, as stores give them. The files are our own:
+/// unreadable data is a bug, so value() may throw.
 void append_cells(TableData& data, TableId table) {
   constexpr std::size_t kFirstColumn = 2;  // after over_mm, to_mm
   std::string_view csv = compiled_in_csv(name(table));
   const auto header = split(take_field(csv, '\n'), ',');
+  std::map<std::string_view, std::size_t> columns;
+  const auto once = [table](bool is_new) {
+    if (is_new) return;
+    throw std::logic_error(std::string(name(table)) + ".csv: a row or column is twice there");
+  };
+  for (std::size_t i = kFirstColumn; i < header.size(); ++i) {
+    once(columns.emplace(header[i], i).second);
+  }
+  std::map<NominalSizeRange, std::vector<std::string_view>> rows;
   while (!csv.empty()) {
-    const auto fields = split(take_field(csv, '\n'), ',');
+    auto fields = split(take_field(csv, '\n'), ',');
     if (fields.size() != header.size()) {
       throw std::logic_error(std::string(name(table)) + ".csv: a row has too few or many fields");
     }
     const NominalSizeRange range{parse_length_mm(fields[0]).value(),
                                  parse_length_mm(fields[1]).value()};
-    for (std::size_t i = kFirstColumn; i < fields.size(); ++i) {
+    once(rows.emplace(range, std::move(fields)).second);
+  }
+  for (const auto& [column, i] : columns) {
+    for (const auto& [range, fields] : rows) {
       if (fields[i] == kSymmetric) continue;
       std::optional<Length> value;
       if (!fields[i].empty()) value = parse_length_um(fields[i]).value();
-      data.cells.push_back({table, range, std::string(header[i]), value});
+      data.cells.push_back({table, range, std::string(column), value});
     }
   }
 }
@@ -184,20 +197,6 @@ void check_classes(const StandardTables& tables, Findings& findings) {
   }
 }
 
-void check_custom_columns(const TableData& data, Findings& findings) {
-  std::set<std::string_view> names;
-  for (const CustomColumn& column : data.custom_columns) {
-    const std::string where = std::string(word(column.feature)) + "/" + column.name;
-    if (auto checked = check_custom_column(column); !checked) {
-      findings.push_back({ErrorCode::TablesInconsistent, checked.error().message, where});
-    }
-    if (!names.insert(column.name).second) {
-      findings.push_back(
-          {ErrorCode::TablesInconsistent, "column '" + column.name + "' is repeated", where});
-    }
-  }
-}
-
 void check_row(const CustomColumn& column, std::size_t i, std::vector<Error>& findings) {
   const CustomRow& row = column.rows[i];
   const auto add = [&](std::string_view field, std::string message) {
@@ -229,7 +228,12 @@ const TableData& compiled_in_tables() {
   return kData;
 }
 
+bool has_compiled_in_cells(const TableData& data) {
+  return data.cells == compiled_in_tables().cells;
+}
+
 std::vector<Error> compare_with_compiled_in(const TableData& data) {
+  if (has_compiled_in_cells(data)) return {};
   std::vector<Error> findings = compare_structure(data);
   for (const TableCell& cell : data.cells) {
     const auto expected = compiled_in_by_key().find(key_of(cell));
@@ -237,6 +241,22 @@ std::vector<Error> compare_with_compiled_in(const TableData& data) {
     findings.push_back(finding(cell.table, cell.range, cell.column,
                                fmt::format("found {}, the standard has {}", text_of(cell.value),
                                            text_of(expected->second->value))));
+  }
+  return findings;
+}
+
+std::vector<Error> custom_column_findings(const TableData& data) {
+  std::vector<Error> findings;
+  std::set<std::string_view> names;
+  for (const CustomColumn& column : data.custom_columns) {
+    const std::string where = std::string(word(column.feature)) + "/" + column.name;
+    if (auto checked = check_custom_column(column); !checked) {
+      findings.push_back({ErrorCode::TablesInconsistent, checked.error().message, where});
+    }
+    if (!names.insert(column.name).second) {
+      findings.push_back(
+          {ErrorCode::TablesInconsistent, "column '" + column.name + "' is repeated", where});
+    }
   }
   return findings;
 }
@@ -251,7 +271,7 @@ std::vector<Error> table_rules(const TableData& data) {
     check_mirror(tables, findings);
     check_classes(tables, findings);
   }
-  check_custom_columns(data, findings);
+  std::ranges::move(custom_column_findings(data), std::back_inserter(findings));
   return findings;
 }
 

@@ -10,7 +10,8 @@ enum class TableId : std::uint8_t {
   HoleFundamentalDeviations,   ///< Tables 2 and 3: 41 steps, with the deltas
   ShaftFundamentalDeviations,  ///< Tables 4 and 5: 41 steps
 };
-inline constexpr std::array kTableIds = {TableId::ItGrades, TableId::HoleFundamentalDeviations,
+/// By their names.
+inline constexpr std::array kTableIds = {TableId::HoleFundamentalDeviations, TableId::ItGrades,
                                          TableId::ShaftFundamentalDeviations};
 
 inline constexpr std::array<std::string_view, 3> kTableNames = {
@@ -58,8 +59,12 @@ struct TableData {
   std::vector<CustomColumn> custom_columns;
 };
 
-/// The tables of ISO 286-1:2010 from tables/data, without custom columns.
+/// The tables of ISO 286-1:2010 from tables/data, without custom columns: by the names of table and
+/// column and by size, as stores give them.
 const TableData& compiled_in_tables();
+
+/// Whether the standard's cells are the compiled-in ones in their order.
+bool has_compiled_in_cells(const TableData& data);
 
 /// Every finding in tables that are not consistent in themselves: contiguous ranges, no missing or
 /// additional column, grades strictly increase, no tolerance decreases with size, the deltas are
@@ -67,6 +72,9 @@ const TableData& compiled_in_tables();
 /// custom columns as check_custom_column.
 /// @returns TablesInconsistent each, naming table, range and column; empty when all hold.
 std::vector<Error> table_rules(const TableData& data);
+
+/// The findings of table_rules in custom columns alone.
+std::vector<Error> custom_column_findings(const TableData& data);
 
 /// Compares the standard's tables with the compiled-in ones cell by cell, because a changed cell
 /// can satisfy every rule. Does not compare custom columns.

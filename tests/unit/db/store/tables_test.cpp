@@ -77,6 +77,14 @@ TEST_CASE("a revision is loaded as it was imported") {
   CHECK(loaded.content->cells[2].value == std::nullopt);
 }
 
+TEST_CASE("the tables of the standard are loaded in the order in which they are compiled in") {
+  Fixture fixture;
+  REQUIRE(import(fixture, iso286::compiled_in_tables(), std::nullopt).has_value());
+  const auto loaded = latest(fixture).value();
+  CHECK(loaded.computed == loaded.revision.digest);
+  CHECK(iso286::has_compiled_in_cells(*loaded.content));
+}
+
 TEST_CASE("a custom column is a revision of its own on the same cells") {
   Fixture fixture;
   REQUIRE(import(fixture, iso_cells(), std::nullopt).has_value());

@@ -76,21 +76,21 @@ TEST_CASE("a change that satisfies every rule is found by comparing the cells") 
 
 TEST_CASE("missing, additional and repeated cells are found") {
   TableData missing = compiled_in_tables();
-  missing.cells.erase(missing.cells.begin());
+  std::erase(missing.cells, cell(missing, kGrades, 3, "IT01"));
   CHECK(names(table_rules(missing), "it_grades/0-3/IT01"));
   CHECK(names(compare_with_compiled_in(missing), "it_grades/0-3/IT01"));
 
   TableData additional = compiled_in_tables();
-  additional.cells.front().column = "IT19";
+  cell(additional, kGrades, 3, "IT01").column = "IT19";
   CHECK(names(table_rules(additional), "it_grades/0-3/IT19"));
   CHECK(names(table_rules(additional), "it_grades/0-3/IT01"));
 
   TableData shifted = compiled_in_tables();
-  shifted.cells.front().range.up_to = Length::millimetres(4);
+  cell(shifted, kGrades, 3, "IT01").range.up_to = Length::millimetres(4);
   CHECK(names(table_rules(shifted), "it_grades/0-4/IT01"));
 
   TableData repeated = compiled_in_tables();
-  repeated.cells.push_back(repeated.cells.front());
+  repeated.cells.push_back(TableCell(cell(repeated, kGrades, 3, "IT01")));
   CHECK(names(table_rules(repeated), "it_grades/0-3/IT01"));
   CHECK_FALSE(table_rules({}).empty());
 }
