@@ -95,10 +95,8 @@ struct ClassColumns {
   IndexedTable::Column deltas;      ///< empty but for IT3 to IT8
 };
 
-/// `row` is the index of the range among the steps of the fundamental deviations, `step` among
-/// those of the standard tolerances.
-std::optional<LimitDeviations> derive(const ClassColumns& columns, const NominalSizeRange& range,
-                                      std::size_t row, std::size_t step) {
+std::optional<LimitDeviations> derive(const ClassColumns& columns, const DerivationRange& place) {
+  const auto& [range, row, step] = place;
   const ToleranceClass& c = columns.tolerance_class;
   const Limit limit = columns.fundamental.limit;
   const auto tolerance = columns.tolerances[step];
@@ -147,10 +145,15 @@ std::size_t IndexedTable::index_of(const NominalSizeRange& range) const {
   return static_cast<std::size_t>(found - ranges_.begin());
 }
 
-std::vector<NominalSizeRange> derivation_ranges(const StandardTables& tables) {
-  std::vector<NominalSizeRange> ranges = tables.holes.ranges();
-  ranges.front().over = kOneMillimetre;
-  ranges.insert(ranges.begin(), kUpToOneMillimetre);
+std::vector<DerivationRange> derivation_ranges(const StandardTables& tables) {
+  std::vector<DerivationRange> ranges;
+  const auto add = [&](const NominalSizeRange& range) {
+    ranges.push_back({range, tables.holes.index_of(range), tables.tolerances.index_of(range)});
+  };
+  add(kUpToOneMillimetre);
+  for (const NominalSizeRange& range : tables.holes.ranges()) {
+    add({std::max(range.over, kOneMillimetre), range.up_to});
+  }
   return ranges;
 }
 
@@ -162,14 +165,11 @@ std::optional<Length> standard_tolerance(const StandardTables& tables, StandardT
 
 std::vector<std::optional<LimitDeviations>> derive(const StandardTables& tables,
                                                    const ToleranceClass& tolerance_class,
-                                                   std::span<const NominalSizeRange> ranges) {
+                                                   std::span<const DerivationRange> ranges) {
   const ClassColumns columns(tables, tolerance_class);
   std::vector<std::optional<LimitDeviations>> deviations;
   deviations.reserve(ranges.size());
-  for (const NominalSizeRange& range : ranges) {
-    deviations.push_back(
-        derive(columns, range, tables.holes.index_of(range), tables.tolerances.index_of(range)));
-  }
+  for (const DerivationRange& range : ranges) deviations.push_back(derive(columns, range));
   return deviations;
 }
 

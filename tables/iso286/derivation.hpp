@@ -45,9 +45,15 @@ struct StandardTables {
   IndexedTable shafts;
 };
 
-/// Returns the ranges within which every class is defined for all sizes or for none: the steps of
-/// the fundamental deviations, with the first one divided at 1 mm.
-std::vector<NominalSizeRange> derivation_ranges(const StandardTables& tables);
+/// A range within which every class is defined for all sizes or for none.
+struct DerivationRange {
+  NominalSizeRange range;
+  std::size_t row = 0;   ///< index of the range that contains it in the fundamental deviations
+  std::size_t step = 0;  ///< and in the standard tolerances
+};
+
+/// Returns the steps of the fundamental deviations, with the first one divided at 1 mm.
+std::vector<DerivationRange> derivation_ranges(const StandardTables& tables);
 
 /// Returns the standard tolerance of a grade; none if the grade is not used.
 std::optional<Length> standard_tolerance(const StandardTables& tables, StandardToleranceGrade grade,
@@ -57,6 +63,6 @@ std::optional<Length> standard_tolerance(const StandardTables& tables, StandardT
 /// the standard does not define the class.
 std::vector<std::optional<LimitDeviations>> derive(const StandardTables& tables,
                                                    const ToleranceClass& tolerance_class,
-                                                   std::span<const NominalSizeRange> ranges);
+                                                   std::span<const DerivationRange> ranges);
 
 }  // namespace fitgauge::iso286

@@ -186,12 +186,13 @@ void check_classes(const StandardTables& tables, Findings& findings) {
     const Column tolerances = tables.tolerances.column(grade_column(c.grade));
     for (std::size_t i = 0; i < ranges.size(); ++i) {
       if (!deviations[i]) continue;
+      const auto& [range, row, step] = ranges[i];
       const auto& [upper, lower] = *deviations[i];
-      if (upper - lower != tolerances[tables.tolerances.index_of(ranges[i])]) {
-        findings.push_back(finding(kGrades, ranges[i], name(c), "upper - lower is not IT"));
+      if (upper - lower != tolerances[step]) {
+        findings.push_back(finding(kGrades, range, name(c), "upper - lower is not IT"));
       }
       if (c.letter == DeviationLetter::JS && upper != -lower) {
-        findings.push_back(finding(kGrades, ranges[i], name(c), "is not symmetric"));
+        findings.push_back(finding(kGrades, range, name(c), "is not symmetric"));
       }
     }
   }

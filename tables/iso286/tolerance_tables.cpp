@@ -39,9 +39,10 @@ Result<ToleranceTables> ToleranceTables::make(const TableData& data, TableRevisi
 
 void ToleranceTables::add_standard_classes(const StandardTables& standard) {
   ranges_ = standard.holes.ranges();
-  slots_ = derivation_ranges(standard);
-  for (const NominalSizeRange& slot : slots_) {
-    tolerance_steps_.push_back(standard.tolerances.ranges()[standard.tolerances.index_of(slot)]);
+  const auto slots = derivation_ranges(standard);
+  for (const DerivationRange& slot : slots) {
+    slots_.push_back(slot.range);
+    tolerance_steps_.push_back(standard.tolerances.ranges()[slot.step]);
   }
   std::size_t slot = 0;
   for (std::size_t mm = 1; mm < slot_by_ceil_mm_.size(); ++mm) {
@@ -51,7 +52,7 @@ void ToleranceTables::add_standard_classes(const StandardTables& standard) {
   cells_.resize(kStandardClassCount * kSlots);
   for (std::uint16_t index = 0; index < kStandardClassCount; ++index) {
     const ToleranceClass tolerance_class = standard_class(ClassId{index});
-    const auto deviations = derive(standard, tolerance_class, slots_);
+    const auto deviations = derive(standard, tolerance_class, slots);
     for (std::size_t i = 0; i < kSlots; ++i) {
       if (!deviations[i]) continue;
       cells_[index * kSlots + i] = {cell_value(deviations[i]->upper),
