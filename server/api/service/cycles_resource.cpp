@@ -97,7 +97,8 @@ void add_cycle_schemas(Schemas& schemas) {
 
 void add_cycles_routes(Routes& add) {
   add("GET /v1/cycles listCycles open",
-      [answer = http::prepare(list_cycles())](const Request&) -> Result<Response> {
+      [](const Request&) -> Result<Response> {
+        static const auto answer = http::prepare(list_cycles());
         return answer;
       },
       {.summary = "Every cycle with its parameters and results",

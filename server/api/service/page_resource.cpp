@@ -5,9 +5,11 @@
 namespace fitgauge::api {
 namespace {
 
-using Prepared = std::shared_ptr<const http::PreparedResponse>;
-
-using PageFiles = std::map<std::string, Prepared, std::less<>>;
+/// A file as one of its addresses serves it.
+struct Served {
+  const PageAsset& asset;
+  std::string_view caching;
+};
 
 constexpr std::string_view kEntry = "index.html";
 
@@ -24,41 +26,38 @@ std::string bytes_of(std::span<const unsigned char> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-Prepared prepare_file(const PageAsset& asset, std::string_view caching) {
+std::map<std::string, Served, std::less<>> page_files() {
+  std::map<std::string, Served, std::less<>> files;
+  for (const PageAsset& asset : page_assets()) {
+    const std::string path(asset.path);
+    files.emplace(path, Served{asset, kFresh});
+    files.emplace(std::string(page_build()) + '/' + path, Served{asset, kKept});
+  }
+  return files;
+}
+
+Result<Response> answer(std::string_view path) {
+  static const auto files = page_files();
+  const auto found = files.find(path);
+  if (found == files.end())
+    return Error{ErrorCode::NotFound, "the page has no file " + std::string(path)};
+  const auto& [asset, caching] = found->second;
   Response response(200, std::string(asset.content_type), bytes_of(asset.plain));
   response.with("Cache-Control", std::string(caching))
       .with("Content-Security-Policy", std::string(kPolicy))
       .with("Referrer-Policy", "no-referrer")
       .with("Service-Worker-Allowed", "/");
   response.etag = '"' + std::string(asset.digest) + '"';
-  return http::prepare(response, bytes_of(asset.gzipped));
-}
-
-PageFiles prepare_files() {
-  PageFiles files;
-  for (const PageAsset& asset : page_assets()) {
-    const std::string path(asset.path);
-    files.emplace(path, prepare_file(asset, kFresh));
-    files.emplace(std::string(page_build()) + '/' + path, prepare_file(asset, kKept));
-  }
-  return files;
-}
-
-Result<Response> answer(const PageFiles& files, std::string_view path) {
-  const auto found = files.find(path);
-  if (found == files.end())
-    return Error{ErrorCode::NotFound, "the page has no file " + std::string(path)};
-  return Response(found->second);
+  return Response(http::prepare(response, bytes_of(asset.gzipped)));
 }
 
 }  // namespace
 
 void add_page_routes(Routes& add) {
-  const auto files = std::make_shared<const PageFiles>(prepare_files());
-  add("GET / getPage open", [files](const Request&) { return answer(*files, kEntry); },
+  add("GET / getPage open", [](const Request&) { return answer(kEntry); },
       {.summary = "The page", .response_types = {"text/html"}, .outcomes = {{.meaning = "HTML"}}});
   add("GET /web/{path*} getPageFile open 404",
-      [files](const Request& request) { return answer(*files, *request.text("path")); },
+      [](const Request& request) { return answer(*request.text("path")); },
       {.summary = "A file of the page",
        .parameters = {path_parameter("path", "app.js")},
        .response_types = {},
