@@ -41,16 +41,18 @@ export class LongList {
     this.place = h('label.place', { hidden: true }, h('span.label', t('parts.row')), this.input, this.total);
   }
 
-  /** Reads the list anew. @param rank the row to begin at, by how many are older; none: the newest */
-  async open(rank) {
-    this.held = [];
-    this.start = 0;
+  /**
+   * Reads the list anew. @param rank the row to begin at, by how many are older; none: the newest
+   * @param isAgain whether it asks what it has asked before: the rows stay in the page until the answer is there
+   */
+  async open(rank, isAgain = false) {
+    if (!isAgain) this.#clear();
+    clearTimeout(this.soon);
     this.length = undefined;
     this.wanted = undefined;
     this.ladder = null;
     this.per = 0;
     this.isBusy = false;
-    this.body.replaceChildren();
     await this.#ask(async (signal) => {
       const rows = await this.read({ sort: 'newest', limit: PAGE }, signal);
       this.length = rows.length < PAGE ? rows.length : await this.count(undefined, signal);
@@ -61,6 +63,12 @@ export class LongList {
     });
     const first = this.wanted ?? (rank === undefined ? 0 : this.length - 1 - rank);
     if (first > 0) await this.#goTo(first);
+  }
+
+  #clear() {
+    this.held = [];
+    this.start = 0;
+    this.body.replaceChildren();
   }
 
   /** Goes to a row that was entered, as soon as it is there. */
@@ -104,6 +112,7 @@ export class LongList {
     } catch (problem) {
       this.isBusy = false;
       this.scroller.ariaBusy = null;
+      if (this.length === undefined) this.#clear();
       return this.onProblem(problem);
     }
     if (!this.isBusy) this.#look();
@@ -182,7 +191,7 @@ export class LongList {
   /** Reads what comes into sight, and says where it is. */
   #look() {
     const { held, per } = this;
-    if (!held.length) return;
+    if (!held.length || this.length === undefined) return;
     clearTimeout(this.soon);
     const { above, below, height, from } = this.#edges();
     const isPast = above > height || below < 0;

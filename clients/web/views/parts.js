@@ -76,7 +76,7 @@ export function mount(main, route) {
     address = location.hash;
   }
 
-  async function search(rank) {
+  async function search(rank, isAgain) {
     toAddress(rank);
     for (const [format, link] of Object.entries(exported)) link.href = url(['measurements'], { ...filter(), format, time_zone: format === 'xlsx' ? ZONE : '' });
     const { part_id, order } = filter();
@@ -85,7 +85,7 @@ export function mount(main, route) {
     places = undefined;
     verdicts.forget();
     showPart(part_id);
-    await list.open(rank);
+    await list.open(rank, isAgain);
     if (list.length === 0) said.textContent = t('parts.none');
   }
 
@@ -116,11 +116,11 @@ export function mount(main, route) {
   }
 
   async function change(record) {
-    if (await correct(record)) search();
+    if (await correct(record)) search(undefined, true);
   }
 
   async function addNote(record) {
-    if (await note(record)) search(at);
+    if (await note(record)) search(at, true);
   }
 
   /** What happens elsewhere: rows come at the top; what a held row says anew takes the whole list anew. */
@@ -164,7 +164,7 @@ export function mount(main, route) {
     if (timer || location.hash !== address) return;
     if (isAnew) {
       isAnew = false;
-      search(at);
+      search(at, true);
     } else {
       showPart(filter().part_id);
       await list.renew();

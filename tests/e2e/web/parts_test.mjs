@@ -147,7 +147,12 @@ describe('the parts', () => {
     await measure('L-1', 'l-a', '25.01');
     await rows('L-1Not complete · 1 missing 25.010');
     assert.equal(await page.textContent('.parts .note'), '');
-    await page.evaluate(() => { globalThis.first = document.querySelector('.records tbody tr'); });
+    await page.evaluate(() => {
+      const body = document.querySelector('.records tbody');
+      globalThis.first = body.rows[0];
+      globalThis.emptied = 0;
+      new MutationObserver(() => { globalThis.emptied += body.rows.length ? 0 : 1; }).observe(body, { childList: true });
+    });
     const bad = await measure('L-1', 'l-b', '25.04');
     await measure('L-2', 'l-a', '25.012');
     await rows('L-2Not complete · 1 missing 25.012', 'L-1Reject · 1 to be done 25.040', 'L-1Reject · 1 to be done 25.010');
@@ -156,6 +161,7 @@ describe('the parts', () => {
     await page.waitForFunction(() => /Insert worn/.test(document.querySelector('.records tbody').textContent));
     await daemon.send('POST', `/v1/measurements/${bad.id}/corrections`, { measured_mm: '25.014', reason: 'misread' });
     await rows('L-1Good 25.014', 'L-2Not complete · 1 missing 25.012', 'L-1Good 25.010');
+    assert.equal(await page.evaluate(() => globalThis.emptied), 0, 'the list is never empty while it is read again');
     await page.fill('.parts [name="part_id"]', 'L-2');
     await page.press('.parts [name="part_id"]', 'Enter');
     await page.waitForFunction(() => /L-2 · Not complete/.test(document.querySelector('.part-verdict')?.textContent));
