@@ -171,8 +171,8 @@ export async function picture(page, name, options = {}) {
 
 /** What axe-core finds, as readable lines. */
 export async function findings(page) {
-  // Evaluated by the debugger, so that the page's own policy need not allow it.
-  await page.evaluate(AXE);
+  // Evaluated by the debugger, so that the page's own policy need not allow it; half a megabyte, sent once.
+  if (!await page.evaluate(() => 'axe' in globalThis)) await page.evaluate(AXE);
   const { violations } = await page.evaluate(() => globalThis.axe.run(document, {
     runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'],
   }));
