@@ -63,70 +63,25 @@ inline std::string_view envelope_result(M m) {
   return m.has_failed_envelope() ? "failed" : "verified";
 }
 
-/// Members that are computed from several MeasurementFields.
-inline constexpr std::tuple kComputed = {
-    RecordMember{"basis", 12, [](M m, auto to) { to.word(word(m.basis)); }},
-    RecordMember{"calibration_overdue", 48,
-                 [](M m, auto to) { to.truth(m.calibration_due.has_value()); }},
-    RecordMember{"conflict", 0, [](M m, auto to) { to.truth(m.conflict); }},
-    RecordMember{
-        "conformance_probability", 38,
-        [](M m, auto to) { to.billionths(figure(m, &gauging::ConformanceFigures::probability)); }},
-    RecordMember{"corrected_by", 0, [](M m, auto to) { to.word(corrector_id_text(m)); }},
-    RecordMember{"corrected_mm", 40, [](M m, auto to) { to.mm(m.corrected); }},
-    RecordMember{"correction_of", 35,
-                 [](M m, auto to) { to.word(m.correction_of ? corrected_id_text(m) : ""); }},
-    RecordMember{"coverage_factor", 20,
-                 [](M m, auto to) {
-                   if (m.coverage_factor) to.decimal(m.coverage_factor->millionths(), 6);
-                 }},
-    RecordMember{"designation", 0, [](M m, auto to) { to.out.designation(m); }, kLimits},
-    RecordMember{"deviation_um", 15, [](M m, auto to) { to.um(if_so(m.has_nominal(), m.decisive() - m.nominal_size)); }},
-    RecordMember{"envelope_result", 60, [](M m, auto to) { to.word(envelope_result(m)); }},
-    RecordMember{"excess_um", 17, [](M m, auto to) { to.um(if_so(m.is_judged(), m.result.excess)); }},
-    RecordMember{"feature", 7, [](M m, auto to) { to.word(m.has_feature() ? word(m.feature) : ""); }},
-    RecordMember{"form_um", 64, [](M m, auto to) {
-      if (m.form) return to.um(Length::nanometres(*m.form));
-      if (m.points) to.null();
-    }},
-    RecordMember{
-        "guard_band_um", 39,
-        [](M m, auto to) { to.billionths(figure(m, &gauging::ConformanceFigures::guard_band)); }},
-    RecordMember{"id", 1, [](M m, auto to) { to.word(measurement_id_text(m.id, m.origin)); }},
-    RecordMember{"lower_deviation_um", 9,
-                 [](M m, auto to) { to.um(if_so(m.has_lower_limit(), m.deviations.lower)); },
-                 kLimits},
-    RecordMember{"lower_limit_mm", 11,
-                 [](M m, auto to) { to.mm(if_so(m.has_lower_limit(), m.lower_limit())); }, kLimits},
-    RecordMember{"measured_at", 3, [](M m, auto to) { to.time(m.measured_at); }, kTimes},
-    RecordMember{"measured_mm", 14, [](M m, auto to) { to.mm(m.measured); }},
-    RecordMember{"nominal_mm", 5, [](M m, auto to) { to.mm(if_so(m.has_nominal(), m.nominal_size)); }, kLimits},
-    RecordMember{"probability", 37,
-                 [](M m, auto to) {
-                   if (m.conformance) to.decimal(m.rule.probability().millionths(), 6);
-                 }},
-    RecordMember{"quantity", 55, [](M m, auto to) { to.word(m.quantity ? word(*m.quantity) : ""); }},
-    RecordMember{"received_at", 4, [](M m, auto to) { to.time(m.received_at); }, kTimes},
-    RecordMember{"rule", 18, [](M m, auto to) { to.word(m.is_judged() ? word(m.rule.kind()) : ""); }},
-    RecordMember{"run_id", 33,
-                 [](M m, auto to) { to.word(m.run_id ? run_id_text(*m.run_id, m.origin) : ""); }},
-    RecordMember{"size_range_mm", 0, [](M m, auto to) { to.out.size_range(m); }, kLimits},
-    RecordMember{"source", 2, [](M m, auto to) { to.word(word(m.source)); }},
-    RecordMember{"table_revision", 13, [](M m, auto to) { to.name(m.table_revision); }},
-    RecordMember{"tolerance_class", 6, [](M m, auto to) { to.name(m.class_name.value_or("")); }},
-    RecordMember{"tolerance_um", 0,
-                 [](M m, auto to) {
-                   to.um(if_so(m.has_upper_limit() && m.has_lower_limit(),
-                               m.deviations.upper - m.deviations.lower));
-                 }},
-    RecordMember{"uncertainty_um", 19, [](M m, auto to) { to.um(m.standard_uncertainty); }},
-    RecordMember{"upper_deviation_um", 8,
-                 [](M m, auto to) { to.um(if_so(m.has_upper_limit(), m.deviations.upper)); },
-                 kLimits},
-    RecordMember{"upper_limit_mm", 10,
-                 [](M m, auto to) { to.mm(if_so(m.has_upper_limit(), m.upper_limit())); }, kLimits},
-    RecordMember{"verdict", 16, [](M m, auto to) { to.word(m.is_judged() ? word(m.result.verdict) : ""); }},
+/// The members in one object: of std::tuple, GCC takes three seconds for as many.
+template <std::size_t I, class Member>
+struct Numbered {
+  Member member;
 };
+template <class Numbers, class... Member>
+struct List;
+template <std::size_t... I, class... Member>
+struct List<std::index_sequence<I...>, Member...> : Numbered<I, Member>... {
+  static constexpr std::size_t kCount = sizeof...(I);
+};
+template <std::size_t I, class Member>
+constexpr const Member& at(const Numbered<I, Member>& one) {
+  return one.member;
+}
+template <class... Member>
+constexpr auto list_of(Member... member) {
+  return List<std::index_sequence_for<Member...>, Member...>{{member}...};
+}
 
 template <std::size_t I>
 constexpr auto plain_member() {
@@ -141,15 +96,94 @@ constexpr auto plain_member() {
                       }};
 }
 
+/// Those that are computed from several MeasurementFields, and the others.
 inline constexpr auto kAll = []<std::size_t... I>(std::index_sequence<I...>) {
-  return std::tuple_cat(kComputed, std::tuple(plain_member<I>()...));
+  return list_of(
+      RecordMember{"basis", 12, [](M m, auto to) { to.word(word(m.basis)); }},
+      RecordMember{"calibration_overdue", 48,
+                   [](M m, auto to) { to.truth(m.calibration_due.has_value()); }},
+      RecordMember{"conflict", 0, [](M m, auto to) { to.truth(m.conflict); }},
+      RecordMember{"conformance_probability", 38,
+                   [](M m, auto to) {
+                     to.billionths(figure(m, &gauging::ConformanceFigures::probability));
+                   }},
+      RecordMember{"corrected_by", 0, [](M m, auto to) { to.word(corrector_id_text(m)); }},
+      RecordMember{"corrected_mm", 40, [](M m, auto to) { to.mm(m.corrected); }},
+      RecordMember{"correction_of", 35,
+                   [](M m, auto to) { to.word(m.correction_of ? corrected_id_text(m) : ""); }},
+      RecordMember{"coverage_factor", 20,
+                   [](M m, auto to) {
+                     if (m.coverage_factor) to.decimal(m.coverage_factor->millionths(), 6);
+                   }},
+      RecordMember{"designation", 0, [](M m, auto to) { to.out.designation(m); }, kLimits},
+      RecordMember{
+          "deviation_um", 15,
+          [](M m, auto to) { to.um(if_so(m.has_nominal(), m.decisive() - m.nominal_size)); }},
+      RecordMember{"envelope_result", 60, [](M m, auto to) { to.word(envelope_result(m)); }},
+      RecordMember{"excess_um", 17,
+                   [](M m, auto to) { to.um(if_so(m.is_judged(), m.result.excess)); }},
+      RecordMember{"feature", 7,
+                   [](M m, auto to) { to.word(m.has_feature() ? word(m.feature) : ""); }},
+      RecordMember{"form_um", 64,
+                   [](M m, auto to) {
+                     if (m.form) return to.um(Length::nanometres(*m.form));
+                     if (m.points) to.null();
+                   }},
+      RecordMember{
+          "guard_band_um", 39,
+          [](M m, auto to) { to.billionths(figure(m, &gauging::ConformanceFigures::guard_band)); }},
+      RecordMember{"id", 1, [](M m, auto to) { to.word(measurement_id_text(m.id, m.origin)); }},
+      RecordMember{"lower_deviation_um", 9,
+                   [](M m, auto to) { to.um(if_so(m.has_lower_limit(), m.deviations.lower)); },
+                   kLimits},
+      RecordMember{"lower_limit_mm", 11,
+                   [](M m, auto to) { to.mm(if_so(m.has_lower_limit(), m.lower_limit())); },
+                   kLimits},
+      RecordMember{"measured_at", 3, [](M m, auto to) { to.time(m.measured_at); }, kTimes},
+      RecordMember{"measured_mm", 14, [](M m, auto to) { to.mm(m.measured); }},
+      RecordMember{"nominal_mm", 5,
+                   [](M m, auto to) { to.mm(if_so(m.has_nominal(), m.nominal_size)); }, kLimits},
+      RecordMember{"probability", 37,
+                   [](M m, auto to) {
+                     if (m.conformance) to.decimal(m.rule.probability().millionths(), 6);
+                   }},
+      RecordMember{"quantity", 55,
+                   [](M m, auto to) { to.word(m.quantity ? word(*m.quantity) : ""); }},
+      RecordMember{"received_at", 4, [](M m, auto to) { to.time(m.received_at); }, kTimes},
+      RecordMember{"rule", 18,
+                   [](M m, auto to) { to.word(m.is_judged() ? word(m.rule.kind()) : ""); }},
+      RecordMember{"run_id", 33,
+                   [](M m, auto to) { to.word(m.run_id ? run_id_text(*m.run_id, m.origin) : ""); }},
+      RecordMember{"size_range_mm", 0, [](M m, auto to) { to.out.size_range(m); }, kLimits},
+      RecordMember{"source", 2, [](M m, auto to) { to.word(word(m.source)); }},
+      RecordMember{"table_revision", 13, [](M m, auto to) { to.name(m.table_revision); }},
+      RecordMember{"tolerance_class", 6, [](M m, auto to) { to.name(m.class_name.value_or("")); }},
+      RecordMember{"tolerance_um", 0,
+                   [](M m, auto to) {
+                     to.um(if_so(m.has_upper_limit() && m.has_lower_limit(),
+                                 m.deviations.upper - m.deviations.lower));
+                   }},
+      RecordMember{"uncertainty_um", 19, [](M m, auto to) { to.um(m.standard_uncertainty); }},
+      RecordMember{"upper_deviation_um", 8,
+                   [](M m, auto to) { to.um(if_so(m.has_upper_limit(), m.deviations.upper)); },
+                   kLimits},
+      RecordMember{"upper_limit_mm", 10,
+                   [](M m, auto to) { to.mm(if_so(m.has_upper_limit(), m.upper_limit())); },
+                   kLimits},
+      RecordMember{"verdict", 16,
+                   [](M m, auto to) { to.word(m.is_judged() ? word(m.result.verdict) : ""); }},
+      plain_member<I>()...);
 }
 (std::make_index_sequence<std::size(kMeasurementFields)>());
 
-inline constexpr auto kNames =
-    std::apply([](const auto&... member) { return std::array{member.name...}; }, kAll);
-inline constexpr auto kPlaces =
-    std::apply([](const auto&... member) { return std::array{member.place...}; }, kAll);
+constexpr auto of_each(auto read) {
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    return std::array{read(at<I>(kAll))...};
+  }
+  (std::make_index_sequence<kAll.kCount>());
+}
+inline constexpr auto kNames = of_each([](const auto& member) { return member.name; });
+inline constexpr auto kPlaces = of_each([](const auto& member) { return member.place; });
 
 inline constexpr auto kByName = [] {
   std::array<std::size_t, kNames.size()> order{};
@@ -169,9 +203,7 @@ inline constexpr auto kByPlace = [] {
 
 template <const auto& kOrder, class Each>
 void for_each(Each&& each) {
-  [&]<std::size_t... K>(std::index_sequence<K...>) {
-    (each(std::get<kOrder[K]>(kAll), kOrder[K]), ...);
-  }
+  [&]<std::size_t... K>(std::index_sequence<K...>) { (each(at<kOrder[K]>(kAll), kOrder[K]), ...); }
   (std::make_index_sequence<std::size(kOrder)>());
 }
 
