@@ -182,18 +182,7 @@ using Request =
                  LockKeyboard, PressKey, ReadDataPath, FileBlock, EndOfData, Accepted>;
 
 /// @errors UnknownTelegram; BadFormat: a field too few, too many or broken.
-inline ControlResult<Request> read_request(const Telegram& telegram) {
-  ControlResult<Request> read = ControlError::UnknownTelegram;
-  const auto try_message = [&]<class Message>(std::type_identity<Message>) {
-    if (telegram.name != Message::kName) return;
-    auto message = decode<Message>(telegram);
-    read = message ? ControlResult<Request>(*std::move(message)) : message.error();
-  };
-  [&]<class... Messages>(std::type_identity<std::variant<Messages...>>) {
-    (try_message(std::type_identity<Messages>()), ...);
-  }(std::type_identity<Request>());
-  return read;
-}
+ControlResult<Request> read_request(const Telegram& telegram);
 
 // Answers of a control, one struct a telegram.
 
@@ -329,8 +318,6 @@ struct SpindleTool {
   FITGAUGE_TELEGRAM("S_RI", m.number, m.index, m.axis, m.length, m.radius)
 };
 
-inline Telegram refusal(ControlError error) {
-  return encode(Refused{.kind = 1, .code = static_cast<std::uint8_t>(error)});
-}
+Telegram refusal(ControlError error);
 
 }  // namespace fitgauge::control_link
