@@ -1,8 +1,7 @@
 #pragma once
 
-#include "nc/machine/machine_setup.hpp"
-#include "nc/program/control_disk.hpp"
 #include "plant/lsv2/link/messages.hpp"
+#include "plant/virtual_control/virtual_control.hpp"
 #include "service/runs/run_service.hpp"
 
 namespace fitgauge::virtual_control {
@@ -11,11 +10,6 @@ using control_link::ControlError;
 using control_link::ControlResult;
 using control_link::DataValue;
 using control_link::ProgramState;
-
-/// Starts a stored program on the control's machine, and waits until it is queued.
-/// @errors as POST /v1/runs.
-using StartProgram =
-    std::function<Result<std::shared_ptr<app::ActiveRun>>(const interpreter::ControlPath&)>;
 
 /// The machine for DNC telegrams: the machine of the newest run, running or finished; before the
 /// first run, at rest as in its setup. Used by one thread.

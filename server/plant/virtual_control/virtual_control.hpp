@@ -1,7 +1,14 @@
 #pragma once
 
+#include "nc/machine/machine_setup.hpp"
+#include "nc/program/control_disk.hpp"
 #include "plant/lsv2/link/link_server.hpp"
-#include "plant/virtual_control/machine_view.hpp"
+
+namespace fitgauge::app {
+class ActiveRun;
+class FileService;
+class RunService;
+}  // namespace fitgauge::app
 
 namespace fitgauge::virtual_control {
 
@@ -14,6 +21,11 @@ struct ControlModel {
 };
 
 std::span<const ControlModel> control_models();
+
+/// Starts a stored program on the control's machine, and waits until it is queued.
+/// @errors as POST /v1/runs.
+using StartProgram =
+    std::function<Result<std::shared_ptr<app::ActiveRun>>(const interpreter::ControlPath&)>;
 
 struct VirtualControlOptions {
   control_link::LinkServerOptions link;

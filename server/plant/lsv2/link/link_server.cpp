@@ -1,5 +1,7 @@
 #include "plant/lsv2/link/link_server.hpp"
 
+#include "plant/tcp_listener.hpp"
+
 namespace fitgauge::control_link {
 namespace {
 
@@ -104,32 +106,35 @@ class Connection : public std::enable_shared_from_this<Connection> {
 }  // namespace
 
 LinkServer::LinkServer(LinkServerOptions options, LinkServerHooks hooks)
-    : options_(std::move(options)),
-      hooks_(std::move(hooks)),
-      listener_("control links", "a control's conversation",
-                [this](http::Socket client, const std::string& peer) {
-                  const auto tell = [this, peer](std::string_view why) {
-                    if (!why.empty() && hooks_.sent_away) hooks_.sent_away(peer, why);
-                  };
-                  if (connections_ >= options_.most_connections) {
-                    return tell("too many clients are connected");
-                  }
-                  http::error_code ignored;
-                  client.set_option(http::asio::ip::tcp::no_delay(true), ignored);
-                  const auto ended = [this, tell](std::string_view why) {
-                    --connections_;
-                    tell(why);
-                  };
-                  const auto connection = std::make_shared<Connection>(
-                      std::move(client), hooks_.converse(), options_, ended);
-                  ++connections_;
-                  connection->go_on(true);
-                }) {}
+    : options_(std::move(options)), hooks_(std::move(hooks)) {
+  const auto take = [this](http::Socket client, const std::string& peer) {
+    const auto tell = [this, peer](std::string_view why) {
+      if (!why.empty() && hooks_.sent_away) hooks_.sent_away(peer, why);
+    };
+    if (connections_ >= options_.most_connections) return tell("too many clients are connected");
+    http::error_code ignored;
+    client.set_option(http::asio::ip::tcp::no_delay(true), ignored);
+    const auto ended = [this, tell](std::string_view why) {
+      --connections_;
+      tell(why);
+    };
+    const auto connection =
+        std::make_shared<Connection>(std::move(client), hooks_.converse(), options_, ended);
+    ++connections_;
+    connection->go_on(true);
+  };
+  listener_ =
+      std::make_unique<connections::TcpListener>("control links", "a control's conversation", take);
+}
+
+LinkServer::~LinkServer() = default;
+
+std::uint16_t LinkServer::port() const { return listener_->port(); }
 
 Result<std::unique_ptr<LinkServer>> LinkServer::start(LinkServerOptions options,
                                                       LinkServerHooks hooks) {
   std::unique_ptr<LinkServer> server(new LinkServer(std::move(options), std::move(hooks)));
-  TRY(server->listener_.open(server->options_.host, server->options_.port));
+  TRY(server->listener_->open(server->options_.host, server->options_.port));
   return server;
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
 #include "plant/lsv2/link/payload.hpp"
-#include "plant/tcp_listener.hpp"
+
+namespace fitgauge::connections {
+class TcpListener;
+}
 
 namespace fitgauge::control_link {
 
@@ -39,7 +42,10 @@ class LinkServer {
   /// Binds, listens and starts the thread, which ends with it. @errors ListenFailed.
   static Result<std::unique_ptr<LinkServer>> start(LinkServerOptions options,
                                                    LinkServerHooks hooks);
-  std::uint16_t port() const { return listener_.port(); }
+  ~LinkServer();
+  LinkServer& operator=(LinkServer&&) = delete;  // neither copied nor moved
+
+  std::uint16_t port() const;
 
  private:
   LinkServer(LinkServerOptions options, LinkServerHooks hooks);
@@ -47,7 +53,7 @@ class LinkServer {
   const LinkServerOptions options_;
   const LinkServerHooks hooks_;
   std::size_t connections_ = 0;
-  connections::TcpListener listener_;  // last: it closes every connection
+  std::unique_ptr<connections::TcpListener> listener_;  // last: it closes every connection
 };
 
 }  // namespace fitgauge::control_link
