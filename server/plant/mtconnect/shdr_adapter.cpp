@@ -1,5 +1,8 @@
 #include "plant/mtconnect/shdr_adapter.hpp"
 
+#include "plant/mtconnect/agent_session.hpp"
+#include "plant/tcp_listener.hpp"
+
 namespace fitgauge::mtconnect {
 namespace {
 

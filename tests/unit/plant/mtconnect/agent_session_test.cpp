@@ -1,4 +1,4 @@
-#include "plant/mtconnect/shdr_adapter.hpp"
+#include "plant/mtconnect/agent_session.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,5 @@
 #include "plant/mtconnect/shdr_adapter.hpp"
+#include "http/engine/asio.hpp"
 
 #include <doctest/doctest.h>
 
