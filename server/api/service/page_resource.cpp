@@ -5,12 +5,6 @@
 namespace fitgauge::api {
 namespace {
 
-/// A file as one of its addresses serves it.
-struct Served {
-  const PageAsset& asset;
-  std::string_view caching;
-};
-
 constexpr std::string_view kEntry = "index.html";
 
 /// The page loads nothing from other sites, runs only its scripts, and no other site frames it.
@@ -26,24 +20,17 @@ std::string bytes_of(std::span<const unsigned char> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::map<std::string, Served, std::less<>> page_files() {
-  std::map<std::string, Served, std::less<>> files;
-  for (const PageAsset& asset : page_assets()) {
-    const std::string path(asset.path);
-    files.emplace(path, Served{asset, kFresh});
-    files.emplace(std::string(page_build()) + '/' + path, Served{asset, kKept});
-  }
-  return files;
-}
-
 Result<Response> answer(std::string_view path) {
-  static const auto files = page_files();
-  const auto found = files.find(path);
-  if (found == files.end())
+  const std::string build = std::string(page_build()) + '/';
+  const bool is_kept = path.starts_with(build);
+  const std::string_view name = is_kept ? path.substr(build.size()) : path;
+  const auto assets = page_assets();
+  const auto found = std::ranges::find(assets, name, &PageAsset::path);
+  if (found == assets.end())
     return Error{ErrorCode::NotFound, "the page has no file " + std::string(path)};
-  const auto& [asset, caching] = found->second;
+  const PageAsset& asset = *found;
   Response response(200, std::string(asset.content_type), bytes_of(asset.plain));
-  response.with("Cache-Control", std::string(caching))
+  response.with("Cache-Control", std::string(is_kept ? kKept : kFresh))
       .with("Content-Security-Policy", std::string(kPolicy))
       .with("Referrer-Policy", "no-referrer")
       .with("Service-Worker-Allowed", "/");
