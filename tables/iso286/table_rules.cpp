@@ -13,34 +13,24 @@ constexpr std::string_view kSymmetric = "+-IT/2";
 /// unreadable data is a bug, so value() may throw.
 void append_cells(TableData& data, TableId table) {
   constexpr std::size_t kFirstColumn = 2;  // after over_mm, to_mm
+  const auto begun = static_cast<std::ptrdiff_t>(data.cells.size());
   std::string_view csv = compiled_in_csv(name(table));
   const auto header = split(take_field(csv, '\n'), ',');
-  std::map<std::string_view, std::size_t> columns;
-  const auto once = [table](bool is_new) {
-    if (is_new) return;
-    throw std::logic_error(std::string(name(table)) + ".csv: a row or column is twice there");
-  };
-  for (std::size_t i = kFirstColumn; i < header.size(); ++i) {
-    once(columns.emplace(header[i], i).second);
-  }
-  std::map<NominalSizeRange, std::vector<std::string_view>> rows;
   while (!csv.empty()) {
-    auto fields = split(take_field(csv, '\n'), ',');
+    const auto fields = split(take_field(csv, '\n'), ',');
     if (fields.size() != header.size()) {
       throw std::logic_error(std::string(name(table)) + ".csv: a row has too few or many fields");
     }
     const NominalSizeRange range{parse_length_mm(fields[0]).value(),
                                  parse_length_mm(fields[1]).value()};
-    once(rows.emplace(range, std::move(fields)).second);
-  }
-  for (const auto& [column, i] : columns) {
-    for (const auto& [range, fields] : rows) {
+    for (std::size_t i = kFirstColumn; i < fields.size(); ++i) {
       if (fields[i] == kSymmetric) continue;
       std::optional<Length> value;
       if (!fields[i].empty()) value = parse_length_um(fields[i]).value();
-      data.cells.push_back({table, range, std::string(column), value});
+      data.cells.push_back({table, range, std::string(header[i]), value});
     }
   }
+  std::ranges::stable_sort(data.cells.begin() + begun, data.cells.end(), {}, &TableCell::column);
 }
 
 using CellKey = std::tuple<TableId, NominalSizeRange, std::string_view>;
