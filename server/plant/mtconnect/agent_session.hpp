@@ -3,9 +3,15 @@
 #include <boost/asio/write.hpp>
 
 #include "http/engine/asio.hpp"
-#include "plant/mtconnect/shdr_adapter.hpp"
 
 namespace fitgauge::mtconnect {
+
+/// Bounds of an agent: memory and time.
+struct SessionOptions {
+  std::size_t full = std::size_t{256} << 10;  ///< bytes that wait for it; then others wait as well
+  std::chrono::milliseconds longest_full = std::chrono::seconds(10);
+  std::chrono::milliseconds heartbeat = std::chrono::seconds(10);  ///< as PONG asks for
+};
 
 /// One agent that reads lines. Used on the thread of its socket.
 class AgentSession : public std::enable_shared_from_this<AgentSession> {
@@ -17,7 +23,7 @@ class AgentSession : public std::enable_shared_from_this<AgentSession> {
     std::function<void()> has_room;
   };
 
-  AgentSession(http::Socket socket, std::string peer, const SessionOptions& options, Hooks hooks)
+  AgentSession(http::Socket socket, std::string peer, Hooks hooks, SessionOptions options = {})
       : socket_(std::move(socket)),
         peer_(std::move(peer)),
         options_(options),

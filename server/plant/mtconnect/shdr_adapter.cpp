@@ -105,7 +105,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
     socket.set_option(asio::ip::tcp::no_delay(true), ignored);
     socket.set_option(asio::socket_base::keep_alive(true), ignored);
     const auto agent = std::make_shared<AgentSession>(
-        std::move(socket), peer, options_.session,
+        std::move(socket), peer,
         AgentSession::Hooks{
             .ended =
                 [this](const std::shared_ptr<AgentSession>& gone, std::string_view why) {

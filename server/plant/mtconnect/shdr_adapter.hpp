@@ -6,13 +6,6 @@
 
 namespace fitgauge::mtconnect {
 
-/// Bounds of an agent: memory and time.
-struct SessionOptions {
-  std::size_t full = std::size_t{256} << 10;  ///< bytes that wait for it; then others wait as well
-  std::chrono::milliseconds longest_full = std::chrono::seconds(10);
-  std::chrono::milliseconds heartbeat = std::chrono::seconds(10);  ///< as PONG asks for
-};
-
 // SHDR, which an adapter sends to an agent: `time|data item|value|data item|value` and a line end.
 // The data items are those of the device Gauge, by their ids.
 
@@ -28,7 +21,6 @@ std::string shdr_text(std::string_view text);
 struct AdapterOptions {
   http::ListenAddress listen{};
   std::size_t most_agents = 16;  ///< further agents are closed at once
-  SessionOptions session{};
   /// Reports an agent that was sent away: address and reason. On the adapter's thread.
   std::function<void(std::string_view peer, std::string_view why)> sent_away{};
 };

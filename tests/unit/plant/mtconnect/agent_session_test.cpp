@@ -21,10 +21,11 @@ struct Connected {
     http::Socket accepted(io);
     acceptor.accept(accepted);
     session = std::make_shared<AgentSession>(
-        std::move(accepted), "agent", options,
+        std::move(accepted), "agent",
         AgentSession::Hooks{
             .ended = [this](const auto&, std::string_view why) { ended = std::string(why); },
-            .has_room = [] {}});
+            .has_room = [] {}},
+        options);
     session->start();
   }
 
