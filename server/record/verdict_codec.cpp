@@ -148,16 +148,23 @@ gauging::KnownUncertainty known_uncertainty(const app::Measurement& m) {
                             .added_uncertainty = m.added_uncertainty});
 }
 
+gauging::CoverageFactor default_coverage(const gauging::KnownUncertainty& known) {
+  if (std::isinf(known.degrees_of_freedom)) return {};
+  return gauging::CoverageFactor::from_millionths(
+             gauging::coverage_millionths(known.degrees_of_freedom))
+      .value();
+}
+
 Result<gauging::DecisionRule> make_rule(const RuleWords& words) {
   using Kind = gauging::DecisionRule::Kind;
   if (words.kind == Kind::Simple && !words.probability_millionths) return gauging::DecisionRule();
   const gauging::KnownUncertainty known = known_uncertainty(words);
   gauging::CoverageFactor factor;
-  std::optional<std::int64_t> millionths = words.coverage_millionths;
-  if (!millionths && words.kind == Kind::GuardBand && words.degrees_of_freedom) {
-    millionths = gauging::coverage_millionths(known.degrees_of_freedom);
+  if (words.coverage_millionths) {
+    factor = TRY(gauging::CoverageFactor::from_millionths(*words.coverage_millionths));
+  } else if (words.kind == Kind::GuardBand) {
+    factor = default_coverage(known);
   }
-  if (millionths) factor = TRY(gauging::CoverageFactor::from_millionths(*millionths));
   gauging::ConformanceProbability probability;
   if (words.probability_millionths) {
     probability =

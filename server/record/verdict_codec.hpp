@@ -63,9 +63,12 @@ gauging::KnownUncertainty known_uncertainty(const RuleWords& words);
 /// Of a record; u is 0 without an uncertainty.
 gauging::KnownUncertainty known_uncertainty(const app::Measurement& measurement);
 
+/// The factor of a guard band that no factor was given for: t(0.9545, ν), or 2 without degrees of
+/// freedom.
+gauging::CoverageFactor default_coverage(const gauging::KnownUncertainty& known);
+
 /// Makes the rule. Its uncertainty includes the correction to 20 °C, with the effective degrees of
-/// freedom (JCGM 100:2008, G.4.1); the added part has infinitely many. The default factor of a
-/// guard band is t(0.9545, ν), or 2 without degrees of freedom.
+/// freedom (JCGM 100:2008, G.4.1); the added part has infinitely many.
 /// @errors RuleInvalid when a guard band or conformance has no uncertainty, or a number is none of
 ///   the rule's.
 Result<gauging::DecisionRule> make_rule(const RuleWords& words);

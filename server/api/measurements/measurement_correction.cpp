@@ -4,6 +4,7 @@
 #include "service/log/log_service.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 #include "service/tables/table_catalog.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -62,6 +63,9 @@ bool is_without_feature(const JsonValue& body) {
 void take_over_limits(MeasurementRowReader& reader, const JsonValue& body,
                       const app::Measurement& original) {
   if (!names_any(body, kLimitsFields)) return reader.take_limits(original);
+  // No class makes a width: somebody gave it.
+  if (original.quantity == gauging::Quantity::Width)
+    offer(reader, "quantity", word(*original.quantity));
   if (body.find("designation") != nullptr) return;
   if (original.has_nominal()) offer(reader, "nominal_mm", format_mm(original.nominal_size));
   if (!original.class_name && original.quantity)
@@ -79,6 +83,34 @@ void take_over_limits(MeasurementRowReader& reader, const JsonValue& body,
   if (original.has_lower_limit()) offer(reader, "lower_um", format_um(original.deviations.lower));
 }
 
+/// The service computed the factor, so it computes it again from the facts of the correction.
+bool is_default_coverage(const app::Measurement& original) {
+  return original.rule.kind() == gauging::DecisionRule::Kind::GuardBand &&
+         original.coverage_factor == default_coverage(known_uncertainty(original));
+}
+
+/// The service gave the field its value, and does so again.
+bool is_derived(const app::MeasurementField& field, const app::Measurement& original) {
+  // A budget gives its degrees of freedom together with its uncertainty.
+  if (field.number == &app::MeasurementFields::degrees_of_freedom)
+    return original.uncertainty_budget.has_value();
+  return field.text == &app::MeasurementFields::size_operator &&
+         original.size_operator == kTwoPoint;
+}
+
+/// The corrected value cannot have the field: it is no size, or its designation requires no
+/// envelope.
+bool is_out_of_place(const app::MeasurementField& field, const JsonValue& body) {
+  const bool is_of_envelope = field.text == &app::MeasurementFields::envelope ||
+                              field.text == &app::MeasurementFields::go_gauge;
+  const bool is_of_size = is_of_envelope || field.text == &app::MeasurementFields::size_operator;
+  if (is_of_size && is_without_feature(body)) return true;
+  const JsonValue* designation = body.find("designation");
+  if (!is_of_envelope || designation == nullptr || body.find("envelope") != nullptr) return false;
+  const auto size = iso286::parse_designation(designation->text);
+  return !size || !size->has_envelope;
+}
+
 void take_over(MeasurementRowReader& reader, const JsonValue& body,
                const app::Measurement& original) {
   take_over_limits(reader, body, original);
@@ -86,11 +118,7 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
     const bool is_replaced = std::ranges::any_of(kReplaced, [&](const Replaced& pair) {
       return pair.field == field.name && body.find(pair.by) != nullptr;
     });
-    // A budget gives its degrees of freedom together with its uncertainty.
-    const bool is_of_budget =
-        field.number == &app::MeasurementFields::degrees_of_freedom &&
-        (original.uncertainty_budget || body.find("uncertainty_um") != nullptr);
-    if (is_replaced || is_of_budget) continue;
+    if (is_replaced || is_derived(field, original) || is_out_of_place(field, body)) continue;
     if (field.text != nullptr) {
       offer(reader, field.name, original.*field.text);
     } else if (const auto& number = original.*field.number) {
@@ -105,7 +133,8 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
     offer(reader, "uncertainty_um", format_um(*original.standard_uncertainty));
   const JsonValue* rule = body.find("rule");
   const std::string_view decides = rule == nullptr ? word(original.rule.kind()) : rule->text;
-  if (original.coverage_factor && decides != word(gauging::DecisionRule::Kind::Conformance))
+  if (original.coverage_factor && !is_default_coverage(original) &&
+      decides != word(gauging::DecisionRule::Kind::Conformance))
     offer(reader, "coverage_factor", format(*original.coverage_factor));
   const bool conforms = decides == word(original.rule.kind());
   if (original.conformance && conforms)

@@ -95,6 +95,76 @@ class Corrections(DaemonTest):
                           new["verdict"]), ("guard_band", 0.8, 2.5, "indeterminate"))
         self.assertEqual(self.corrected(new, measured_mm=25.0195, rule="simple")["verdict"], "good")
 
+    def test_a_corrected_value_is_judged_as_a_new_one(self):
+        """What the service computed from the facts is computed again from the corrected facts."""
+        for name, freedom in (("ring", {}), ("many", {"degrees_of_freedom": 100}), ("few", {"degrees_of_freedom": 2})):
+            self.daemon.request("PUT", f"/v1/uncertainties/{name}", {"contributions": [
+                {"name": "all", "standard_uncertainty": 1, **freedom}]})
+            self.daemon.request("PUT", f"/v1/gauges-in-use/{name}",
+                                {"uncertainty": name, "calibration_due": "2099-12-31"})
+        part = {"nominal_mm": 25, "tolerance_class": "H7", "measured_mm": 25.0175, "measured_at": "2026-11-20T08:00:00Z"}
+        band, known = {"rule": "guard_band"}, {"uncertainty_um": 1}
+        warm = {"temperature_c": 21, "part_material": "steel", "temperature_uncertainty_c": 0.5}
+        drawing = {"tolerance_class": None, "feature": "hole", "upper_um": 21, "lower_um": 0}
+        originals = [
+            {}, {**known, "degrees_of_freedom": 5, "coverage_factor": 2.5}, {**band, **known},
+            {**band, **known, "degrees_of_freedom": 50}, {**band, **known, "degrees_of_freedom": 5},
+            {**band, **known, "degrees_of_freedom": 5, "coverage_factor": 3}, {**band, **known, "coverage_factor": 1.5},
+            {**band, "gauge": "ring"}, {**band, "gauge": "many"}, {**band, "gauge": "few", "coverage_factor": 3},
+            {"rule": "conformance", **known, "degrees_of_freedom": 50, "probability": 0.8},
+            {"rule": "conformance", "gauge": "many"}, {**band, **known, **warm, "degrees_of_freedom": 3},
+            {**band, **known, **drawing, "degrees_of_freedom": 3}, {**drawing, "quantity": "distance", "feature": None},
+            {"quantity": "width"}, {"tolerance_class": "ISO 2768-m", "quantity": "width"},
+            {"tolerance_class": "ISO 2768-m", "feature": "hole"}, {"envelope": "required", "go_gauge": "fails"}]
+        changes = [
+            {}, {"degrees_of_freedom": 2}, {"uncertainty_um": 1.3}, {"uncertainty_um": 1.3, "degrees_of_freedom": 4},
+            {"coverage_factor": 2.2}, {"rule": "simple"}, {"rule": "guard_band"}, {"rule": "conformance"},
+            {"rule": "guard_band", "uncertainty_um": 0.7}, {"gauge": "few"}, {"gauge": "ring"}, {"gauge": "unknown"},
+            {"temperature_c": 30}, {"temperature_uncertainty_c": 3}, {"measured_mm": 25.0105}, {"size_operator": "GG"},
+            {"nominal_mm": 25.01}, {"tool": "T5"}]
+
+        def body(*facts):
+            merged = {name: value for each in facts for name, value in each.items()}
+            unused = "coverage_factor" if merged.get("rule") == "conformance" else "probability"
+            return {name: value for name, value in merged.items()
+                    if value is not None and not (name == unused and name not in facts[-1])}
+
+        def facts_of(answer):
+            if answer.status != 201:
+                return answer.status, {(e["pointer"], e["code"]) for e in answer.json["errors"]}
+            return answer.status, {name: value for name, value in answer.json.items()
+                                   if name not in ("id", "received_at", "correction_of", "reason")}
+
+        pairs = [(original, change) for original in originals for change in changes]
+        stored = self.daemon.measure([body(part, original) for original, _ in pairs], {"Prefer": "return=representation"})
+        for (original, change), old in zip(pairs, stored.json["measurements"], strict=True):
+            with self.subTest(original=original, change=change):
+                new = self.correct(old, reason="x", **{"measured_mm": part["measured_mm"], **change})
+                self.assertEqual(facts_of(new), facts_of(self.daemon.measure(body(part, original, change))))
+
+    def test_few_degrees_of_freedom_are_not_judged_by_the_factor_of_many(self):
+        old = self.store(measured_mm=25.0175, rule="guard_band", uncertainty_um=1, degrees_of_freedom=50)
+        self.assertEqual((old["coverage_factor"], old["verdict"]), (2.051251, "good"))
+        new = self.corrected(old, measured_mm=25.0175, degrees_of_freedom=2)
+        self.assertEqual((new["coverage_factor"], new["verdict"]), (4.526551, "indeterminate"))
+
+    def test_a_designation_without_the_envelope_ends_it(self):
+        given = {"designation": "25H7(E)", "measured_mm": 25.01, "go_gauge": "fails"}
+        old = self.store(**given)
+        self.assertEqual((old["envelope_result"], old["verdict"]), ("failed", "rework"))
+        new = self.corrected(old, measured_mm=25.01, designation="25 H7")
+        self.assertEqual(({"envelope", "go_gauge", "envelope_result"} & set(new), new["verdict"]), (set(), "good"))
+        for stays in ({"designation": "25 H8(E)"}, {"designation": "25 H8", "envelope": "required"}, {"tolerance_class": "H8"}):
+            new = self.corrected(self.store(**given), measured_mm=25.01, **stays)
+            self.assertEqual((new["envelope_result"], new["verdict"]), ("failed", "rework"), stays)
+
+    def test_a_value_that_is_no_size_loses_what_only_a_size_has(self):
+        old = self.store(designation="25H7(E)", measured_mm=25.01, go_gauge="passes", size_operator="GG")
+        new = self.corrected(old, measured_mm=25.01, quantity="distance", upper_um=21, lower_um=0)
+        self.assertEqual(({"envelope", "go_gauge", "size_operator"} & set(new), new["quantity"]), (set(), "distance"))
+        new = self.corrected(self.store(), measured_mm=2.1, designation="R2 ISO 2768-m")
+        self.assertEqual(("size_operator" in new, new["quantity"]), (False, "radius"))
+
     def test_limits_stay_as_they_were_applied(self):
         rows = [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": -3}]
         self.daemon.request("PUT", "/v1/tables/hole/classes/Shop1", {"rows": rows})
