@@ -143,7 +143,7 @@ void judge_size(Measurement& measurement, const CycleSize& size) {
   measurement.measured = size.measured;
   if (size.limits) {
     measurement.basis = LimitsBasis::Explicit;
-    measurement.nominal_size = size.nominal.value_or(size.measured);
+    measurement.nominal_size = size.nominal.value();
     measurement.deviations = {.upper = size.limits->upper - measurement.nominal_size,
                               .lower = size.limits->lower - measurement.nominal_size};
   } else {

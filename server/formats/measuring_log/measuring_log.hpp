@@ -97,7 +97,7 @@ struct PatternReading {
 class Pattern {
  public:
   /// @errors ConfigInvalid with the line: an unknown or doubled field, two fields with nothing
-  ///   between them, no measured_mm, no lines.
+  ///   between them, no measured_mm, no lines, limits without their nominal size or one of two.
   static Result<Pattern> parse(std::string_view text);
 
   PatternReading read(std::string_view bytes) const;
@@ -110,6 +110,8 @@ class Pattern {
   using Line = std::vector<std::variant<std::string, Field>>;
   using Fields = std::map<std::string, std::string, std::less<>>;
 
+  /// Whether every result has the field.
+  bool has(std::string_view name) const;
   Result<void> take_constant(std::string_view line, std::size_t number);
   Result<void> take_line(std::string_view line, std::size_t number);
   Result<void> check_field(const std::string& name, std::size_t number) const;

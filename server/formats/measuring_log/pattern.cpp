@@ -14,25 +14,34 @@ constexpr std::array<std::string_view, 19> kFields{
     "machine",     "operator",        "gauge",    "unit",           "comment",  "date",
     "time"};
 
+/// A field of limits, and the field that it means nothing without.
+constexpr std::pair<std::string_view, std::string_view> kNeeds[] = {
+    {"upper_um", "lower_um"},         {"lower_um", "upper_um"},   {"upper_mm", "lower_mm"},
+    {"lower_mm", "upper_mm"},         {"upper_um", "nominal_mm"}, {"upper_mm", "nominal_mm"},
+    {"tolerance_class", "nominal_mm"}};
+
 Error invalid(std::size_t line, std::string_view what) {
   return {ErrorCode::ConfigInvalid, fmt::format("line {}: {}", line, what)};
 }
 
 }  // namespace
 
+bool Pattern::has(std::string_view name) const {
+  const auto is_it = [name](const std::variant<std::string, Field>& part) {
+    const auto* const field = std::get_if<Field>(&part);
+    return field != nullptr && field->name == name;
+  };
+  return constants_.contains(name) || std::ranges::any_of(lines_, [&](const Line& line) {
+           return std::ranges::any_of(line, is_it);
+         });
+}
+
 Result<void> Pattern::check_field(const std::string& name, std::size_t number) const {
   if (std::ranges::find(kFields, name) == kFields.end()) {
     return invalid(
         number, fmt::format("unknown field '{}'; use one of: {}", name, fmt::join(kFields, ", ")));
   }
-  bool is_there = constants_.contains(name);
-  for (const Line& line : lines_) {
-    for (const auto& part : line) {
-      const auto* const field = std::get_if<Field>(&part);
-      is_there = is_there || (field != nullptr && field->name == name);
-    }
-  }
-  if (is_there) return invalid(number, fmt::format("the field '{}' is used twice", name));
+  if (has(name)) return invalid(number, fmt::format("the field '{}' is used twice", name));
   return {};
 }
 
@@ -84,9 +93,14 @@ Result<Pattern> Pattern::parse(std::string_view text) {
     TRY(below ? pattern.take_line(line, number) : pattern.take_constant(line, number));
   }
   if (pattern.lines_.empty()) return invalid(1, "lines of a result must follow ---");
-  const auto measured = pattern.check_field("measured_mm", 1);
-  if (measured || pattern.constants_.contains("measured_mm"))
+  if (!pattern.has("measured_mm") || pattern.constants_.contains("measured_mm"))
     return invalid(1, "no line below --- has {measured_mm}");
+  for (const auto& [name, needed] : kNeeds) {
+    if (!pattern.has(name) || pattern.has(needed)) continue;
+    return invalid(1, fmt::format("{0} needs {1}: add a line '{1} = …' above ---, or {{{1}}} below "
+                                  "it",
+                                  name, needed));
+  }
   return pattern;
 }
 

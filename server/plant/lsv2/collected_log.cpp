@@ -110,7 +110,7 @@ std::shared_ptr<CollectedLog> collected(const MeasuringLog& read, const Origin& 
   return log;
 }
 
-/// The fields of one result, each asked for by its name.
+/// The fields of one result, each asked for by its name. The pattern has those that limits need.
 class Fields {
  public:
   explicit Fields(const PatternResult& result) : result_(result) {}
@@ -121,20 +121,15 @@ class Fields {
     return found == result_.fields.end() ? std::string_view() : found->second;
   }
   Result<Length> length(std::string_view name) const {
-    return named(name, parse_length_mm(text(name), kSyntax));
+    return parse_length_mm(text(name), kSyntax);
   }
   Result<Length> micrometres(std::string_view name) const {
-    return named(name, parse_length_um(text(name), kSyntax));
+    return parse_length_um(text(name), kSyntax);
   }
 
  private:
   static constexpr DecimalSyntax kSyntax{
       .decimal_comma = true, .exponent = false, .round_to_nearest = true};
-
-  Result<Length> named(std::string_view name, Result<Length> read) const {
-    if (read || has(name)) return read;
-    return Error{ErrorCode::FieldMissing, fmt::format("the pattern has no {}", name)};
-  }
 
   const PatternResult& result_;
 };
@@ -153,25 +148,29 @@ Result<void> judge_by_class(Measurement& measurement, CollectedLog& log, const F
 }
 
 /// Returns the limits from `upper_um`, `lower_um` and the nominal size, or `upper_mm`, `lower_mm`.
-Result<std::optional<gauging::Limits>> drawn_limits(const Fields& fields, Length nominal) {
-  for (const bool as_deviation : {true, false}) {
-    const char* const names[] = {as_deviation ? "upper_um" : "upper_mm",
-                                 as_deviation ? "lower_um" : "lower_mm"};
-    if (!fields.has(names[0]) && !fields.has(names[1])) continue;
-    const auto upper = TRY(as_deviation ? fields.micrometres(names[0]) : fields.length(names[0]));
-    const auto lower = TRY(as_deviation ? fields.micrometres(names[1]) : fields.length(names[1]));
-    const Length base = as_deviation ? nominal : Length();
-    if (upper < lower) return invalid_field("the upper limit must not be below the lower limit");
-    return std::optional(gauging::Limits{.upper = base + upper, .lower = base + lower});
+Result<std::optional<gauging::Limits>> drawn_limits(const Fields& fields,
+                                                    std::optional<Length> nominal) {
+  gauging::Limits limits;
+  if (nominal && fields.has("upper_um")) {
+    limits.upper = *nominal + TRY(fields.micrometres("upper_um"));
+    limits.lower = *nominal + TRY(fields.micrometres("lower_um"));
+  } else if (fields.has("upper_mm")) {
+    limits.upper = TRY(fields.length("upper_mm"));
+    limits.lower = TRY(fields.length("lower_mm"));
+  } else {
+    return std::optional<gauging::Limits>();
   }
-  return std::optional<gauging::Limits>();
+  if (limits.upper < limits.lower)
+    return invalid_field("the upper limit must not be below the lower limit");
+  if (limits.lower <= Length()) return invalid_field("the lower limit must be above 0");
+  return std::optional(limits);
 }
 
 Result<void> judge_by_drawing(Measurement& measurement, const Fields& fields) {
   app::CycleSize size;
   size.measured = measurement.measured;
   if (fields.has("nominal_mm")) size.nominal = TRY(fields.length("nominal_mm"));
-  size.limits = TRY(drawn_limits(fields, size.nominal.value_or(measurement.measured)));
+  size.limits = TRY(drawn_limits(fields, size.nominal));
   const std::string_view feature = fields.text("feature");
   if (!feature.empty() && feature != "hole" && feature != "shaft") {
     return invalid_field(fmt::format("feature must be one of: hole, shaft; got '{}'", feature));

@@ -180,6 +180,20 @@ class Collecting(unittest.TestCase):
         self.assertEqual(state["unreadable"], 1)
         shop.collector.wait_for_log("result 3: a measured size must be above 0")
 
+    def test_limits_of_a_pattern_are_of_its_nominal_size(self):
+        shop = self.shop(1, "TNC:\\logs\\*.txt", patterns=["um.pattern", "mm.pattern", "free.pattern"])
+        for name, limits in (("um", "upper_um = 21\nlower_um = 0\nnominal_mm = 25\n"),
+                             ("mm", "upper_mm = 25.021\nlower_mm = 25\nnominal_mm = 25\n"), ("free", "")):
+            (shop.folder / f"{name}.pattern").write_text(f"{limits}---\n{name} {{measured_mm}} {{part_id}}\n")
+        shop.collector.start()
+        for name in ("um", "mm", "free"):
+            self.put(shop.controls[0], f"logs/{name}.txt", f"{name} 99.9 {name}\n")
+        found = wait_for(lambda: len(rows := all_measurements(shop.collector)) == 3 and rows)
+        facts = {row["part_id"]: [row.get(name) for name in ("verdict", "nominal_mm", "upper_limit_mm", "deviation_um")]
+                 for row in found}
+        self.assertEqual(facts, {"um": ["reject", 25, 25.021, 74900], "mm": ["reject", 25, 25.021, 74900],
+                                 "free": [None] * 4})
+
     def test_what_no_reader_understands_is_kept_and_said(self):
         shop = self.shop(1, "TNC:\\logs\\*")
         shop.collector.start()
@@ -297,6 +311,14 @@ class Settings(unittest.TestCase):
                 self.assertIn(said, error)
         self.assertIn("occurs twice", self.refusal(self.GOOD * 2)[1])
         self.assertIn("cannot read the pattern file", self.refusal(self.GOOD + 'patterns = ["none"]\n')[1])
+
+    def test_a_pattern_gives_limits_with_their_nominal_size(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".pattern") as pattern:
+            pattern.write("upper_um = 21\nlower_um = 0\n---\nTEIL {part_id}\nDURCHM {measured_mm} MM\n")
+            pattern.flush()
+            code, error = self.refusal(self.GOOD + f'patterns = ["{pattern.name}"]\n')
+        self.assertEqual(code, 2)
+        self.assertIn("upper_um needs nominal_mm: add a line 'nominal_mm = …' above ---", error)
 
 
 if __name__ == "__main__":

@@ -54,5 +54,18 @@ TEST_CASE("a pattern that cannot be meant is refused with its line") {
   CHECK(why("H7\n---\n{measured_mm}\n") == "line 1: a line above --- must be: field = value");
   CHECK(why("part_id = x\n---\n{measured_mm} {part_id}\n") ==
         "line 3: the field 'part_id' is used twice");
+  for (const auto& [given, needed] :
+       {std::pair("upper_um = 21\nlower_um = 0", "upper_um needs nominal_mm"),
+        std::pair("upper_mm = 25.021\nlower_mm = 25", "upper_mm needs nominal_mm"),
+        std::pair("nominal_mm = 25\nupper_um = 21", "upper_um needs lower_um"),
+        std::pair("nominal_mm = 25\nlower_um = 0", "lower_um needs upper_um"),
+        std::pair("nominal_mm = 25\nupper_mm = 25.021", "upper_mm needs lower_mm"),
+        std::pair("nominal_mm = 25\nlower_mm = 25", "lower_mm needs upper_mm"),
+        std::pair("tolerance_class = H7", "tolerance_class needs nominal_mm")}) {
+    CHECK(why(fmt::format("{}\n---\n{{measured_mm}}\n", given))
+              .starts_with(fmt::format("line 1: {}: add a line '", needed)));
+  }
+  CHECK(
+      Pattern::parse("upper_um = 21\nlower_um = 0\n---\n{nominal_mm} {measured_mm}\n").has_value());
   CHECK(why("---\n{diameter}\n").starts_with("line 2: unknown field 'diameter'; use one of: "));
 }
