@@ -182,8 +182,10 @@ void MeasurementRowReader::resolve_explicit() {
   }
   if (upper < lower) {
     report(ErrorCode::LimitsInvalid, RowField::Upper, "upper_um is below lower_um");
-  } else if (!gauging::is_signed(quantity) && draft_.lower && *draft_.nominal + lower <= Length()) {
-    report(ErrorCode::LimitsInvalid, RowField::Lower, "the lower limit must be above 0");
+  } else if (!gauging::is_signed(quantity) &&
+             *draft_.nominal + draft_.lower.value_or(upper) <= Length()) {
+    report(ErrorCode::LimitsInvalid, draft_.lower ? RowField::Lower : RowField::Upper,
+           fmt::format("the {} limit must be above 0", draft_.lower ? "lower" : "upper"));
   }
   m.basis = app::LimitsBasis::Explicit;
   m.nominal_size = *draft_.nominal;

@@ -104,6 +104,14 @@ TEST_CASE("limits are given once, in one of three ways") {
   CHECK(complaints(
             R"({"nominal_mm":25,"feature":"hole","upper_um":1,"lower_um":2,"measured_mm":25})") ==
         Complaints{"/upper_um limits.invalid"});
+  for (const auto& [deviations, place] :
+       {std::pair(R"("upper_um":-25000)", "/upper_um"),
+        std::pair(R"("lower_um":-25000)", "/lower_um"),
+        std::pair(R"("upper_um":0,"lower_um":-26000)", "/lower_um")}) {
+    CHECK(complaints(fmt::format(R"({{"nominal_mm":25,"feature":"hole",{},"measured_mm":25}})",
+                                 deviations)) ==
+          Complaints{fmt::format("{} limits.invalid", place)});
+  }
 }
 
 TEST_CASE("what a spreadsheet would run as a formula is guarded in CSV, and read back as it was") {
