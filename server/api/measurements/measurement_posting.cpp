@@ -184,11 +184,14 @@ void MeasurementAnswer::add(std::span<const app::Measurement> measurements,
   }
 }
 
-/// Adds warnings; of a list only the first ones, each with the id of its record.
+/// Adds warnings; of a list only the first ones, each with the id of its record, and counts others.
 void MeasurementAnswer::warn_of(const app::Measurement& m) {
   constexpr std::size_t kMost = 20;
   for (Warning& warning : warnings_of(m)) {
-    if (warnings_.size() == kMost) return;
+    if (warnings_.size() == kMost) {
+      ++unlisted_warnings_;
+      continue;
+    }
     if (!single_) {
       warning.detail =
           fmt::format("{}: {}", app::measurement_id_text(m.id, m.origin), warning.detail);
@@ -210,6 +213,10 @@ void MeasurementAnswer::end_with_warnings() {
 }
 
 app::Answer MeasurementAnswer::finish() {
+  if (unlisted_warnings_ > 0) {
+    warnings_.back().detail += fmt::format(
+        "; {} more warnings are not listed: check the measurements after it", unlisted_warnings_);
+  }
   if (single_) answer_.location = "/v1/measurements/" + first_id_;
   if (wanted_ == Preference::Minimal) {
     answer_.content_type.clear();

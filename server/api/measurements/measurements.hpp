@@ -88,6 +88,7 @@ class MeasurementAnswer final : public app::Rendering {
   std::int64_t count_ = 0;
   app::VerdictTally verdicts_{};
   std::vector<Warning> warnings_;
+  std::size_t unlisted_warnings_ = 0;
 };
 
 /// POST /v1/measurements/{id}/corrections: stores a measurement that replaces another one, with a

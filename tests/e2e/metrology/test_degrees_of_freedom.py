@@ -95,6 +95,10 @@ class DegreesOfFreedom(DaemonTest):
         several = self.daemon.measure([{**part, "gauge": "other"}, part]).json
         self.assertEqual(codes(several), ["gauge.unknown"])
         self.assertIn(several["first_id"], several["warnings"][0]["detail"])
+        self.assertEqual(codes(self.daemon.measure([{**part, "gauge": "other"}] * 20).json), ["gauge.unknown"] * 20)
+        many = self.daemon.measure([{**part, "gauge": "other"}] * 57 + [part]).json["warnings"]
+        self.assertEqual([each["detail"].partition("; ")[2] for each in many],
+                         [""] * 19 + ["37 more warnings are not listed: check the measurements after it"])
         shown = self.daemon.measure([{**part, "gauge": "other"}], {"Prefer": "return=representation"}).json
         self.assertEqual((codes(shown), len(shown["measurements"])), (["gauge.unknown"], 1))
         self.assertEqual(self.daemon.command("verify").returncode, 0)
