@@ -165,10 +165,10 @@ Result<void> start(const SharedPosting& posting) {
   }
   TRY(runs.check_start(order));
   const bool at_once = prefers_async(posting->request);
-  const auto run =
-      TRY(runs.start(std::move(order), posting->scope,
-                     [at_once](const app::ActiveRun& r) { return accepted(r, at_once); }));
-  app::Answer answer = accepted(*run, at_once);
+  app::Answer answer;  // as stored: a repeat of the request gets the same
+  const auto run = TRY(runs.start(std::move(order), posting->scope, [&](const app::ActiveRun& r) {
+    return answer = accepted(r, at_once);
+  }));
   if (at_once) {
     posting->responder.answer(with_preference(api::response_of(std::move(answer))));
     return {};

@@ -201,6 +201,10 @@ class Runs(ControlTest):
                          (again.status, again.body, again.headers["location"]))
         other = self.post_run(program, headers=key, parameters={"Q2": 1})
         self.assert_problem(other, 422, "idempotency.key_reused")
+        for number in range(20):
+            at_once = {"Idempotency-Key": f"async-{number}", "Prefer": "respond-async"}
+            first, again = (self.post_run(program, headers=at_once) for _ in range(2))
+            self.assertEqual((first.status, first.body), (202, again.body))
 
     def test_runs_are_listed_the_newest_first(self):
         program = self.upload_program("listed", "Q1 = 1")
