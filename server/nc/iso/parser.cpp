@@ -82,6 +82,24 @@ void set_place(Diagnostic& diagnostic, const Program& program, Slice<char> place
   diagnostic.source = std::string(klartext::shown(program.line(diagnostic.range.begin.line)));
 }
 
+/// Several lines of Klartext may be one block. Its first syntax error is its only finding, since
+/// the other lines need the line that cannot be read.
+void drop_later_findings(std::vector<Diagnostic>& diagnostics,
+                         const std::vector<Slice<char>>& lines) {
+  const auto line_of = [](const Diagnostic& found) { return found.range.begin.line - 1; };
+  const auto block_of = [&](const Diagnostic& found) {
+    return line_of(found) < lines.size() ? lines[line_of(found)].first : klartext::kLargestSource;
+  };
+  std::map<std::size_t, std::size_t> faulty;  // a block and its line with the error
+  for (const Diagnostic& found : diagnostics)
+    if (found.code == DiagnosticCode::SyntaxError)
+      faulty.try_emplace(block_of(found), line_of(found));
+  std::erase_if(diagnostics, [&](const Diagnostic& found) {
+    const auto block = faulty.find(block_of(found));
+    return block != faulty.end() && block->second != line_of(found);
+  });
+}
+
 klartext::ParsedProgram parse_iso(std::string source, std::string name) {
   Translation translation = translate(source);
   if (translation.is_too_large) {
@@ -92,6 +110,7 @@ klartext::ParsedProgram parse_iso(std::string source, std::string name) {
   }
   auto parsed = klartext::parse_program(std::move(translation.klartext), name);
   const Origin origin(source, translation, parsed.program.source());
+  drop_later_findings(parsed.diagnostics, translation.lines);
   std::vector<Slice<char>> places;
   for (Diagnostic& diagnostic : parsed.diagnostics) {
     const auto [begin, end] = diagnostic.range;

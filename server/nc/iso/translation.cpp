@@ -105,7 +105,10 @@ class Translator {
     const auto written = out_.klartext.size();
     line_.begin_block(place_, open(line.code));
     const std::string_view departure = departure_;
-    if (!in_.at_end()) statement();
+    if (!in_.at_end()) {
+      statement();
+      begun_ = true;
+    }
     if (!departure.empty() && departure_.data() == departure.data() && line_.is_written()) {
       fail("G27 needs the end point in the next block, with G40");
       departure_ = {};
@@ -167,6 +170,7 @@ class Translator {
           line_.put(word.empty() ? fmt::format("{} {}", head.family, head.number) : "%");
         }
         line_.put(rest());
+        begun_ = true;
       } else {
         line_.continue_line(here);
         line_.put(code);
@@ -219,7 +223,7 @@ class Translator {
     }
     line_.put(fmt::format("{} PGM {} {}", begun_ ? "END" : "BEGIN", trim(text.substr(0, unit_at)),
                           inch ? "INCH" : "MM"));
-    ended_ = std::exchange(begun_, true);
+    ended_ = begun_;
   }
 
   /// `L1,0` calls a subprogram, `L1,2` repeats a part of the program twice.
@@ -240,7 +244,8 @@ class Translator {
     if (in_.at_parameter()) words.text = read_value(in_);
     in_.skip_blanks();
     const std::string pattern = function_pattern(number);
-    if (pattern.empty() || ascii_upper(in_.peek()) != 'P' || !is_digit(in_.peek(1))) {
+    const bool has_p = ascii_upper(in_.peek()) == 'P' && is_digit(in_.peek(1));
+    if (pattern.empty() || (!has_p && !in_.at_end())) {
       in_.move_to(begin);
       return verbatim(fmt::format("FN {}: ", number));
     }
@@ -262,6 +267,9 @@ class Translator {
     if (words.block->kind == CodeKind::Cycle)
       return fail("a cycle must be the first word of its block");
     check_modes(false, words);
+    if (number == 55 && words.p.size() > 1 &&
+        words.p[1].find_first_of("+-") == std::string_view::npos)
+      return fail("P02 must be an axis with its direction, such as X-");
     if (Word* angle = words.find("H"); angle != nullptr && number == 73) angle->name = "ROT";
     if (number == 26 || number == 27) {
       arc_of_contour(words);

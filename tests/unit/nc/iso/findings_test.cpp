@@ -94,6 +94,7 @@ TEST_CASE("A block says what is missing or does not belong to it") {
         "2:12 syntax.error: G17 and G18 contradict each other: leave one of them out");
   CHECK(finding("N10 G01 G01 G91 X+5 G90 Y+5 F100 *").empty());
   CHECK(finding("N10 D01 Q1 P01 +5 *") == "2:1 syntax.error: P02 is missing");
+  CHECK(finding("N10 D00 Q1 *") == "2:1 syntax.error: P01 is missing");
   CHECK(finding("N10 D00 Q1 P01 +5 P02 +6 *") ==
         "2:1 syntax.error: P02 is not allowed in this block");
   CHECK(finding("N10 G62 T0.1 P01 1 *") == "2:1 syntax.error: P01 is not allowed in this block");
@@ -126,6 +127,18 @@ TEST_CASE("A mode that holds on over a label is named at its use") {
         "of an earlier block counts; write the code into this block");
 }
 
+TEST_CASE("The first syntax error of a block is its only finding") {
+  for (const std::string block : {"N10 G55 P01 10 P02 Z P03 X+50 Y+10 Z+5 *",
+                                  "N10 G55 P01 10 P02 Z- P03 X+50 Y+ Z+5 *", "N10 G54 X+ *"}) {
+    CAPTURE(block);
+    const auto parsed = parse_program("%T G71 *\n" + block + "\nN99999999 %T G71 *\n", "t.i");
+    REQUIRE(parsed.diagnostics.size() == 1);
+    CHECK(parsed.diagnostics[0].code == klartext::DiagnosticCode::SyntaxError);
+  }
+  CHECK(finding("N10 G55 P01 10 P02 Z P03 X+50 Y+10 Z+5 *") ==
+        "2:1 syntax.error: P02 must be an axis with its direction, such as X-");
+}
+
 TEST_CASE("A program has a first and a last line") {
   const auto first = [](std::string text) {
     const auto parsed = parse_program(std::move(text), "t.i");
@@ -136,6 +149,7 @@ TEST_CASE("A program has a first and a last line") {
         "the program ends with N99999999 %NAME G71 *, or G70 for inch");
   CHECK(first("N10 M3 *\n%T G71 *\nN99999999 %T G71 *") ==
         "a DIN/ISO program begins with %NAME G71 *, or G70 for inch");
+  CHECK(parse_program("N10 M3 *\nN99999999 %T G71 *\n", "t.i").diagnostics.size() == 1);
   CHECK(first("%T G71 *\nN99999999 %U G71 *") ==
         "the name or unit differs from the first line, which counts");
 }
