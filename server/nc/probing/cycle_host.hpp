@@ -124,8 +124,10 @@ class CycleHost {
   virtual void set_q(std::uint16_t number, double value, Unit unit) = 0;
   virtual CycleMemory& memory() = 0;
 
-  /// The unit of the main program, which a log uses too.
-  virtual bool is_inch() const = 0;
+  /// The unit of a log: that of the main program.
+  virtual bool log_is_inch() const = 0;
+  /// The unit of the block of the cycle and its texts: that of the program that contains it.
+  virtual bool block_is_inch() const = 0;
   /// The full path of the program that runs: `TNC:\nc_prog\8255\82551.h`.
   virtual std::string_view program_path() const = 0;
   virtual Timestamp now() const = 0;

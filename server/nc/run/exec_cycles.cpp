@@ -27,12 +27,13 @@ class ChannelCycleHost final : public probing::CycleHost {
   explicit ChannelCycleHost(Channel& channel) : channel_(channel) {}
 
   void set_q(std::uint16_t number, double value, probing::Unit unit) override {
-    const double scaled = value / scale_of(unit, channel_.linked().is_inch());
+    const double scaled = value / scale_of(unit, block_is_inch());
     keep(channel_.parameters.set({QSpace::Q, number}, scaled));
   }
 
   probing::CycleMemory& memory() override { return channel_.cycle_memory; }
-  bool is_inch() const override { return channel_.calls.main_program().is_inch(); }
+  bool log_is_inch() const override { return channel_.calls.main_program().is_inch(); }
+  bool block_is_inch() const override { return channel_.linked().is_inch(); }
   std::string_view program_path() const override { return channel_.linked().path().text(); }
   Timestamp now() const override { return channel_.now(); }
 

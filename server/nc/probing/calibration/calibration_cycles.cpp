@@ -54,7 +54,7 @@ std::string row(std::string_view label, double before, double after, bool inch) 
 CycleResult<void> log_calibration(const CycleContext& context, const machine::ProbeSystem& before,
                                   const machine::ProbeSystem& after, Length residual) {
   const CycleDescriptor& cycle = context.descriptor();
-  const bool inch = context.host.is_inch();
+  const bool inch = context.host.log_is_inch();
   const std::string section = fmt::format(
       templates::calibration::section, "cycle"_a = cycle.number, "name"_a = cycle.name,
       "when"_a = date_and_time(context.host), "tool"_a = context.state().tool.number,

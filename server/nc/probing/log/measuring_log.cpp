@@ -13,7 +13,7 @@ std::string beginning(const CycleHost& host, const HtmlLog& log) {
   return fmt::format(templates::page::beginning, "title"_a = log.title,
                      "style"_a = templates::page::style, "heading"_a = log.heading,
                      "program"_a = escape_html(host.program_path()),
-                     "unit"_a = host.is_inch() && !log.is_metric ? "inch" : "mm",
+                     "unit"_a = host.log_is_inch() && !log.is_metric ? "inch" : "mm",
                      "note"_a = log.note.empty() ? "" : fmt::format(" {}", log.note));
 }
 
@@ -30,7 +30,7 @@ std::string log_text(Length value, bool inch) {
 }
 
 MeasuringLog::MeasuringLog(const CycleDescriptor& cycle, const CycleHost& host)
-    : inch_(host.is_inch()) {
+    : inch_(host.log_is_inch()) {
   const CivilTime time = civil_time(host.now());
   text_ =
       fmt::format(templates::measuring::beginning, "cycle"_a = cycle.number, "name"_a = cycle.name,

@@ -104,11 +104,11 @@ std::string section(const CycleHost& host, const ProbedPoint& point) {
   const std::string_view beyond = status.q183 == 1   ? ": above the upper limit"
                                   : status.q183 == 2 ? ": below the lower limit"
                                                      : "";
-  return fmt::format(templates::point::section, "when"_a = date_and_time(host),
-                     "style"_a = status.style,
-                     "words"_a = fmt::format("{}{}", status.words, beyond), "q183"_a = status.q183,
-                     "main"_a = name(point.plane.main), "secondary"_a = name(point.plane.secondary),
-                     "probe"_a = name(point.plane.probe), "rows"_a = rows(point, host.is_inch()));
+  return fmt::format(
+      templates::point::section, "when"_a = date_and_time(host), "style"_a = status.style,
+      "words"_a = fmt::format("{}{}", status.words, beyond), "q183"_a = status.q183,
+      "main"_a = name(point.plane.main), "secondary"_a = name(point.plane.secondary),
+      "probe"_a = name(point.plane.probe), "rows"_a = rows(point, host.log_is_inch()));
 }
 
 constexpr std::array kParameters = list(
@@ -218,7 +218,7 @@ MeasuringRecord make_record(const ProbedPoint& point) {
 CycleResult<void> measure(const CycleContext& context) {
   CycleHost& host = context.host;
   host.set_q(kStatusResult.q, -1, Unit::None);
-  const auto limits = TRY(tolerance_of(context, host.is_inch()));
+  const auto limits = TRY(tolerance_of(context, host.block_is_inch()));
   const auto point = TRY(touch_point(context, limits));
 
   write_results(host, point);

@@ -40,7 +40,7 @@ std::vector<MeasuredValue> values_of(const CycleDescriptor& cycle, const ObjectF
 
 CycleResult<void> log_object(const CycleContext& context, const std::vector<MeasuredValue>& values,
                              const std::vector<ObjectAngle>& angles, const ObjectStatus& status) {
-  const auto text = [&](Length length) { return log_text(length, context.host.is_inch()); };
+  const auto text = [&](Length length) { return log_text(length, context.host.log_is_inch()); };
   std::string rows;
   const auto add = [&](std::string_view label, const std::array<std::string, 5>& cells,
                        std::string_view style) {
@@ -91,7 +91,7 @@ CycleResult<ObjectProbing> ObjectProbing::begin(const CycleContext& context) {
 CycleResult<Nominal> ObjectProbing::size(int parameter) const {
   const std::string* text = context_.text(q(parameter));
   if (text == nullptr) return Nominal{to_length(context_.number(parameter))};
-  return parse_nominal(fmt::format("QS{}", parameter), *text, context_.host.is_inch());
+  return parse_nominal(fmt::format("QS{}", parameter), *text, context_.host.block_is_inch());
 }
 
 CycleResult<ObjectPoint> ObjectProbing::point(int first) const {

@@ -261,7 +261,7 @@ CycleResult<void> probe_inclined(const CycleContext& context) {
   const auto start = TRY(probing.point(1100));
   if (start.limits != decltype(start.limits){})
     return nc_error(1011, "QS1100 to QS1102 are the start of the line: its tolerance is QS400");
-  const auto limits = TRY(tolerance_of(context, context.host.is_inch()));
+  const auto limits = TRY(tolerance_of(context, context.host.block_is_inch()));
   const auto [sine, cosine] = machine::sine_cosine(context.number(1130));
   const auto plane = static_cast<std::size_t>(context.whole(1139));
   Vec3 along;

@@ -9,7 +9,8 @@ class RecordingHost final : public CycleHost {
  public:
   void set_q(std::uint16_t number, double value, Unit) override { q[number] = value; }
   CycleMemory& memory() override { return cycle_memory; }
-  bool is_inch() const override { return inch; }
+  bool log_is_inch() const override { return inch; }
+  bool block_is_inch() const override { return inch; }
   std::string_view program_path() const override { return path; }
   Timestamp now() const override { return parse_rfc3339("2026-11-20T06:05:04Z").value(); }
 

@@ -59,6 +59,25 @@ TEST_CASE("programs that call themselves end in an error") {
         "failed line 2: Excessive nesting: more than 19 programs call each other");
 }
 
+TEST_CASE("a text of a cycle is in the unit of the program that contains it") {
+  for (const bool main_is_inch : {false, true}) {
+    CAPTURE(main_is_inch);
+    Control control;
+    control.setup.features = {machine::Block{{0, 0, -40}, {100, 80, -0.1}}};
+    control.program(
+        "TCH PROBE 444 PROBING IN 3-D ~\n Q263=+25 Q264=+25 Q294=+0 Q581=0 Q582=0 Q583=1 Q320=0 "
+        "Q260=30 QS400=\"0.01-0.01\" Q309=0",
+        "mm.h", false);
+    control.program(
+        "TCH PROBE 1400 POSITION PROBING ~\n QS1100=\"1\" Q1101=+1 Q1102=+0 Q372=-3 "
+        "Q320=0 Q260=+1 Q1125=+0 Q309=0 Q1120=0",
+        "inch.h", true);
+    control.program("TOOL CALL 30 Z\nCALL PGM mm.h\nQ1 = Q183\nCALL PGM inch.h", "main.h",
+                    main_is_inch);
+    check_completes(control.run(), "Q1=2, Q950=1, Q951=1");
+  }
+}
+
 TEST_CASE("M30 in a called program ends the run") {
   Control control;
   control.program("L M30\nQ5 = 1", "sub.h");
