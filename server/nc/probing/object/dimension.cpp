@@ -105,25 +105,32 @@ std::optional<Limits> limits_behind(Length nominal, ToleranceReader& reader) {
 
 }  // namespace
 
-CycleResult<Nominal> parse_nominal(std::string_view parameter, std::string_view text, bool inch) {
+CycleResult<Nominal> parse_nominal(const CycleParameter& parameter, std::string_view text,
+                                   bool inch) {
+  const std::string said = fmt::format("QS{} = \"{}\"", static_cast<int>(parameter.id), text);
   if (text.find_first_of("?@") != std::string_view::npos) {
     return nc_error(1097,
-                    "{} = \"{}\" leaves the position to the operator "
+                    "{} leaves the position to the operator "
                     "(semi-automatic): write the nominal value alone",
-                    parameter, text);
+                    said);
   }
   ToleranceReader reader(text, inch);
   const bool is_negative = reader.take('-');
   if (!is_negative) reader.take('+');
   const auto size = reader.number();
-  if (size && reader.at_end()) return Nominal{is_negative ? -*size : *size};
-  const auto limits = size ? limits_behind(is_negative ? -*size : *size, reader) : std::nullopt;
-  if (!limits) {
+  const Length nominal = !size ? Length{} : is_negative ? -*size : *size;
+  const bool is_plain = size && reader.at_end();
+  const auto limits = size && !is_plain ? limits_behind(nominal, reader) : std::nullopt;
+  if (!is_plain && !limits) {
     return nc_error(1011,
-                    "{} = \"{}\" must be a dimension such as \"50\", "
+                    "{} must be a dimension such as \"50\", "
                     "\"50+0.2-0.1\", \"50+-0.1\", \"50H7\" or \"50m\"",
-                    parameter, text);
+                    said);
   }
+  const ValueRange& range = parameter.range;
+  if (!range.contains((limits ? limits->lower : nominal).to_mm()))
+    return nc_error(1004, "{} is not in {} to {}", said, range.min, range.max);
+  if (!limits) return Nominal{nominal};
   const std::int64_t width = (limits->upper - limits->lower).count();
   return Nominal{limits->lower + Length::nanometres(width / 2), *limits};
 }

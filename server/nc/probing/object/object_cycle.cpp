@@ -91,7 +91,8 @@ CycleResult<ObjectProbing> ObjectProbing::begin(const CycleContext& context) {
 CycleResult<Nominal> ObjectProbing::size(int parameter) const {
   const std::string* text = context_.text(q(parameter));
   if (text == nullptr) return Nominal{to_length(context_.number(parameter))};
-  return parse_nominal(fmt::format("QS{}", parameter), *text, context_.host.block_is_inch());
+  return parse_nominal(*context_.descriptor().find(q(parameter)), *text,
+                       context_.host.block_is_inch());
 }
 
 CycleResult<ObjectPoint> ObjectProbing::point(int first) const {
@@ -245,7 +246,7 @@ CycleResult<void> check_dimensions(const Arguments& arguments) {
   for (const CycleParameter& parameter : arguments.descriptor().parameters) {
     const std::string* text = arguments.text(parameter.id);
     if (text == nullptr || parameter.kind != ValueKind::NumberOrText) continue;
-    TRY(parse_nominal("QS" + name(parameter).substr(1), *text, false));
+    TRY(parse_nominal(parameter, *text, false));
   }
   return {};
 }

@@ -20,9 +20,10 @@ struct Nominal {
 ///     50+0.2-0.1    deviations; `50+0.2` and `50-0.1` have 0 as the other one; `50+-0.1`
 ///     10H7, 10m     a class of ISO 286; f, m, c or v of ISO 2768-1
 ///
-/// @errors 1011 what cannot be read, or a class that the size does not have; 1097 `?` and `@`: the
-///   operator gives the position.
-CycleResult<Nominal> parse_nominal(std::string_view parameter, std::string_view text, bool inch);
+/// @errors 1004 a size below 0; 1011 what cannot be read, or a class that the size does not have;
+///   1097 `?` and `@`: the operator gives the position.
+CycleResult<Nominal> parse_nominal(const CycleParameter& parameter, std::string_view text,
+                                   bool inch);
 
 /// Reads QS400, the tolerance of cycle 444: the permitted deviations along the surface normal.
 ///
@@ -130,17 +131,22 @@ CycleResult<void> check_dimensions(const Arguments& arguments);
 
 namespace parameter {
 
-constexpr CycleParameter dimension(int number, std::string_view meaning) {
-  CycleParameter made = coordinate(number, meaning);
-  made.kind = ValueKind::NumberOrText;
-  return made;
+constexpr CycleParameter with_tolerance(CycleParameter dimension) {
+  dimension.kind = ValueKind::NumberOrText;
+  return dimension;
 }
-inline constexpr std::array kPoint1{dimension(1100, "1st point, main axis"),
-                                    dimension(1101, "1st point, secondary axis"),
-                                    dimension(1102, "1st point, probe axis")};
-inline constexpr std::array kPoint2{dimension(1103, "2nd point, main axis"),
-                                    dimension(1104, "2nd point, secondary axis"),
-                                    dimension(1105, "2nd point, probe axis")};
+constexpr CycleParameter position(int number, std::string_view meaning) {
+  return with_tolerance(coordinate(number, meaning));
+}
+constexpr CycleParameter size(int number, std::string_view meaning) {
+  return with_tolerance(length(number, meaning));
+}
+inline constexpr std::array kPoint1{position(1100, "1st point, main axis"),
+                                    position(1101, "1st point, secondary axis"),
+                                    position(1102, "1st point, probe axis")};
+inline constexpr std::array kPoint2{position(1103, "2nd point, main axis"),
+                                    position(1104, "2nd point, secondary axis"),
+                                    position(1105, "2nd point, probe axis")};
 inline constexpr CycleParameter kObjectDirection =
     choice(372, "Direction: 1 main, 2 secondary, 3 probe axis, with its sign", -3, 3);
 inline constexpr std::array kObject = list(

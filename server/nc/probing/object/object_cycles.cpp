@@ -10,7 +10,7 @@ using namespace parameter;
 constexpr std::array kEnd = list(kObject, transfer_position(1));
 constexpr std::array kUndercut = list(length(1118, "Start further back from the face", 0), kEnd);
 constexpr std::array kFace = list(kPoint1, kObjectDirection);
-constexpr std::array kWidth = list(kPoint1, dimension(1113, "Width of the slot or ridge"),
+constexpr std::array kWidth = list(kPoint1, size(1113, "Width of the slot or ridge"),
                                    choice(1115, "Geometry: 0 slot, 1 ridge", 0, 1, 0),
                                    angle(1114, "Angle of rotation", 360, 0));
 constexpr std::array k1400 = list(kFace, kEnd);
@@ -79,7 +79,7 @@ CycleResult<void> extrude(const CycleContext& context) {
   return {};
 }
 
-constexpr std::array kCentre = list(kPoint1, dimension(1116, "Diameter"));
+constexpr std::array kCentre = list(kPoint1, size(1116, "Diameter"));
 constexpr std::array kTouched =
     list(choice(423, "Number of touches", 3, 8, 3), angle(325, "Starting angle", 360, 0),
          angle(1119, "Angular length", 360, 360), kObject);
@@ -88,7 +88,7 @@ constexpr std::array k1401 =
     list(kCentre, choice(1115, "Geometry: 0 hole, 1 stud", 0, 1, 0), kCircleEnd);
 constexpr std::array k1402 = list(kCentre, kCircleEnd);
 constexpr std::array k1411 =
-    list(kCentre, kPoint2, dimension(1117, "2nd diameter"),
+    list(kCentre, kPoint2, size(1117, "2nd diameter"),
          choice(1115, "Geometry: 0 holes, 1 studs, 2 hole and stud, 3 stud and hole", 0, 3, 0),
          kTouched, transfer_all(3, 2));
 
@@ -213,8 +213,8 @@ constexpr std::array k1412 =
          coordinates(1132, "1st distance along the line", "2nd distance along the line"),
          choice(1139, "Plane of the line: 1 YZ, 2 ZX, 3 XY", 1, 3, 3), kObject, transfer_all(1, 2));
 constexpr std::array k1420 = list(
-    kPoints, dimension(1106, "3rd point, main axis"), dimension(1107, "3rd point, secondary axis"),
-    dimension(1108, "3rd point, probe axis"), kLineEnd, transfer_all(4, 1));
+    kPoints, position(1106, "3rd point, main axis"), position(1107, "3rd point, secondary axis"),
+    position(1108, "3rd point, probe axis"), kLineEnd, transfer_all(4, 1));
 
 constexpr auto kLineResults = object_results<2>(std::array{kAngleResult, kTableAngleResult});
 constexpr std::array kSpatial{CycleOutput{961, "Spatial angle A", Unit::Angle},

@@ -98,6 +98,7 @@ TEST_CASE("QS400: nearest nanometre, inches of an inch program") {
 }
 
 TEST_CASE("QS1100: a dimension with its tolerance") {
+  const CycleParameter kPoint = parameter::position(1100, "1st point, main axis");
   const auto um = [](std::int64_t count) { return Length::micrometres(count); };
   struct Case {
     std::string text;
@@ -116,19 +117,34 @@ TEST_CASE("QS1100: a dimension with its tolerance") {
         Case{"10h6", Length::nanometres(9'995'500), Limits{um(10'000), um(9'991)}},
         Case{"10m", um(10'000), Limits{um(10'200), um(9'800)}}}) {
     CAPTURE(c.text);
-    const auto read = parse_nominal("QS1100", c.text, false);
+    const auto read = parse_nominal(kPoint, c.text, false);
     REQUIRE(read.has_value());
     CHECK(read->target == c.target);
     CHECK(read->limits == c.limits);
   }
-  CHECK(parse_nominal("QS1100", "1+0.01", true)->limits == Limits{um(25'654), um(25'400)});
+  CHECK(parse_nominal(kPoint, "1+0.01", true)->limits == Limits{um(25'654), um(25'400)});
   for (const char* text : {"", "x", "+", "50+", "50+0.1+", "50+0.1-0.2-0.3", "50+-", "50+-0.1-0.2",
                            "50X", "50H99", "0H7", "-10H7", "100000"}) {
     CAPTURE(text);
-    CHECK(parse_nominal("QS1100", text, false).error().number == 1011);
+    CHECK(parse_nominal(kPoint, text, false).error().number == 1011);
   }
   for (const char* text : {"?", "?50", "50+0.2@50.01"}) {
-    CHECK(parse_nominal("QS1100", text, false).error().number == 1097);
+    CHECK(parse_nominal(kPoint, text, false).error().number == 1097);
+  }
+}
+
+TEST_CASE("QS1116: a size is not below 0") {
+  const CycleParameter kSize = parameter::size(1116, "Diameter");
+  CHECK(parse_nominal(kSize, "25-0.1", false)->target == Length::micrometres(24'950));
+  CHECK(parse_nominal(kSize, "0", false)->target == Length{});
+  for (const char* text : {"-25", "-25+0.1-0.1", "0.1-0.5"}) {
+    CAPTURE(text);
+    const auto read = parse_nominal(kSize, text, false);
+    REQUIRE(read.has_error());
+    CHECK(read.error().number == 1004);
+    CHECK(read.error().text == fmt::format("Range exceeded: QS1116 = \"{}\" is not in 0 to "
+                                           "99999.9999",
+                                           text));
   }
 }
 
