@@ -53,6 +53,26 @@ bool exclude(int a, int b) {
          });
 }
 
+/// How to write an available cycle that a block names in the other form, with or without sub-lines,
+/// or in the other family; empty if there is none.
+std::string other_form(klartext::CycleFamily family, int number, bool is_dotted) {
+  using enum klartext::CycleFamily;
+  if (family == GlobalDef) return {};
+  const auto written = [=](klartext::CycleFamily in, bool dotted) {
+    return fmt::format("{} {}{}", words_of(in), number, dotted ? ".0" : "");
+  };
+  if (const CycleDescriptor* cycle = cycle_of(family, number)) {
+    return fmt::format("cycle {} is written {} sub-lines: write {}", number,
+                       cycle->dotted ? "in" : "without", written(family, cycle->dotted));
+  }
+  const auto other = family == TchProbe ? CyclDef : TchProbe;
+  const CycleDescriptor* cycle = cycle_of(other, number);
+  if (cycle == nullptr) return {};
+  return fmt::format("{} is {}: write {} instead of {}", number,
+                     other == TchProbe ? "a touch-probe cycle" : "not a touch-probe cycle",
+                     written(other, cycle->dotted), written(family, is_dotted));
+}
+
 /// A feed at which the tool is in the material.
 bool cuts(const CycleParameter& parameter) {
   constexpr int kCutting[] = {11, 12, 19, 206, 207, 254, 385};
@@ -145,7 +165,7 @@ class BlockCheck {
     } else if (const auto* descriptor = bound.descriptor()) {
       check_parameters(cycle, *descriptor);
     } else {
-      warn_unavailable(cycle.family, cycle.number);
+      report_unavailable(cycle.family, cycle.number, false);
     }
   }
 
@@ -201,7 +221,7 @@ class BlockCheck {
     }
     if (part.part != 0) return check_repeated(part, before);
     if (!is_available(part.family, part.number, true)) {
-      warn_unavailable(part.family, part.number);
+      report_unavailable(part.family, part.number, true);
     } else if (!neighbour(program_, index_, 1)) {
       report(Severity::Warning, DiagnosticCode::OrderContradicts, block_.written,
              fmt::format("{} is missing after {}", line(1), line(0)));
@@ -263,7 +283,10 @@ class BlockCheck {
     interpreter::report(diagnostics_, program_, block_, place, severity, code, std::move(message));
   }
 
-  void warn_unavailable(klartext::CycleFamily family, int number) {
+  void report_unavailable(klartext::CycleFamily family, int number, bool is_dotted) {
+    if (std::string remedy = other_form(family, number, is_dotted); !remedy.empty())
+      return report(Severity::Error, DiagnosticCode::CycleUnknown, block_.written,
+                    std::move(remedy));
     report(Severity::Warning, DiagnosticCode::CycleUnknown, block_.written,
            family == klartext::CycleFamily::GlobalDef
                ? fmt::format("GLOBAL DEF {} is not available: the run fails when it reaches this "

@@ -28,6 +28,30 @@ TEST_CASE("all findings of all named programs are reported at once, each file on
   CHECK(has_errors(warnings));
 }
 
+TEST_CASE("a cycle in the wrong form or family is an error with the right one") {
+  struct Case {
+    std::string block;
+    std::string message;
+  };
+  for (const auto& [block, message] :
+       {Case{"CYCL DEF 421 X",
+             "421 is a touch-probe cycle: write TCH PROBE 421 instead of CYCL DEF 421"},
+        Case{"TCH PROBE 247 X",
+             "247 is not a touch-probe cycle: write CYCL DEF 247 instead of TCH PROBE 247"},
+        Case{"TCH PROBE 421.0 X", "cycle 421 is written without sub-lines: write TCH PROBE 421"},
+        Case{"CYCL DEF 247.0 X", "cycle 247 is written without sub-lines: write CYCL DEF 247"},
+        Case{"TCH PROBE 3 MEASURING ~\n Q5=1",
+             "cycle 3 is written in sub-lines: write TCH PROBE 3.0"},
+        Case{"CYCL DEF 7 NULL ~\n Q1=1", "cycle 7 is written in sub-lines: write CYCL DEF 7.0"}}) {
+    Control control;
+    control.program(block);
+    const auto found = control.diagnostics();
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].severity == Severity::Error);
+    CHECK(found[0].message == message);
+  }
+}
+
 TEST_CASE("a contour label that is missing is found before the run") {
   Control control;
   control.program("CYCL DEF 14.0 CONTOUR\nCYCL DEF 14.1 CONTOUR LABEL 1 /2\nM30\nLBL 1\nLBL 0");
