@@ -172,8 +172,9 @@ class TableAccess {
   /// SEL TABLE. @errors as open.
   NcResult<void> select_datum_table(const ControlPath& path);
   bool has_datum_table() const { return datum_.has_value(); }
-  /// The values of a row that are not blank: mm and degrees. @errors 1043, missing row.
-  NcResult<machine::AxisWords> datum(std::int64_t row) const;
+  /// A cell of the datum table: mm or degrees; nothing if the axis has no column, or its cell
+  /// is blank. @errors 1043, missing row, a cell that is no number.
+  NcResult<std::optional<double>> datum(std::int64_t row, machine::Axis axis) const;
   /// @errors 1043, missing row or column.
   NcResult<void> write_datum(std::int64_t row, const machine::AxisWords& values);
 

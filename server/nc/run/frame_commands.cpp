@@ -260,10 +260,10 @@ NcResult<void> program_call(Channel& channel, Words words) {
 }  // namespace
 
 NcResult<void> shift_datum_to_row(Channel& channel, std::int64_t row) {
-  const auto values = TRY(channel.tables.datum(row));
   AxisCoordinates axes;
   for (const Axis axis : kAllAxes) {
-    if (values[axis]) axes[index(axis)] = Coordinate{*values[axis], false};
+    const auto value = TRY(channel.tables.datum(row, axis));
+    if (value) axes[index(axis)] = Coordinate{*value, false};
   }
   return shift_datum(channel, axes);
 }

@@ -129,10 +129,11 @@ Answer find(const Channel& channel, const Address& address) {
 
 /// ID500: the datum table, NR is the row.
 NcResult<double> datum_data(const Channel& channel, const Address& address) {
-  const auto values = TRY(channel.tables.datum(address.nr));
   const auto axis = axis_of(address);
-  if (!axis || !values[*axis]) return unknown(address);
-  return *values[*axis];
+  if (!axis) return unknown(address);
+  const auto value = TRY(channel.tables.datum(address.nr, *axis));
+  if (!value) return unknown(address);
+  return *value;
 }
 
 /// ID502 and ID503: the preset table, NR is the row. The kinematics add nothing to a preset here.

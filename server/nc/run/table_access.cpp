@@ -41,7 +41,10 @@ NcError no_table_error() {
   return nc_error("no table is open: write FN 26: TABOPEN before this block");
 }
 
-constexpr std::array<std::string_view, machine::kAxes> kAxisColumns{"X", "Y", "Z", "A", "B", "C"};
+/// Millimetres or degrees in one unit of a datum table.
+double datum_unit(const TabTable& table, machine::Axis axis) {
+  return table.header().unit == "INCH" && !is_rotary(axis) ? kMillimetresPerInch : 1;
+}
 
 }  // namespace
 
@@ -140,23 +143,27 @@ NcResult<void> TableAccess::select_datum_table(const ControlPath& path) {
   return {};
 }
 
-NcResult<machine::AxisWords> TableAccess::datum(std::int64_t row) const {
+NcResult<std::optional<double>> TableAccess::datum(std::int64_t row, machine::Axis axis) const {
   if (!datum_) return nc_error(1043, "write SEL TABLE before this block");
-  const auto found = datum_->content->find_row(row);
-  if (!found) return nc_error("datum table {}: {}", datum_->path.text(), found.error().message);
-  machine::AxisWords values;
-  for (const machine::Axis axis : machine::kAllAxes) {
-    const auto value = datum_->content->number(row, kAxisColumns[index(axis)]);
-    if (value) values[axis] = *value;
-  }
-  return values;
+  const TabTable& table = *datum_->content;
+  const auto failed = [&](const Error& error) {
+    return nc_error("datum table {}: {}", datum_->path.text(), error.message);
+  };
+  const auto found = table.find_row(row);
+  if (!found) return failed(found.error());
+  const auto column = table.find_column(name(axis));
+  if (!column || table.cell(*found, *column).empty()) return std::optional<double>();
+  const auto value = table.number(row, name(axis));
+  if (!value) return failed(value.error());
+  return std::optional(*value * datum_unit(table, axis));
 }
 
 NcResult<void> TableAccess::write_datum(std::int64_t row, const machine::AxisWords& values) {
   if (!datum_) return nc_error(1043, "write SEL TABLE before this block");
   for (const machine::Axis axis : machine::kAllAxes) {
     if (!values[axis]) continue;
-    const auto set = editable(*datum_).set_number(row, kAxisColumns[index(axis)], *values[axis]);
+    TabTable& table = editable(*datum_);
+    const auto set = table.set_number(row, name(axis), *values[axis] / datum_unit(table, axis));
     if (!set) return nc_error("datum table {}: {}", datum_->path.text(), set.error().message);
   }
   return save(datum_);

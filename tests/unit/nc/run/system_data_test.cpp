@@ -218,6 +218,39 @@ TEST_CASE("FN 17 writes tools, presets and the datum table") {
         "failed line 2: ID20 NR1 is not available");
 }
 
+TEST_CASE("a datum table in INCH has lengths in inches and angles in degrees") {
+  Control control;
+  control.setup.features = {machine::Block{{25.4, -50, -40}, {90, 50, 0}}};
+  control.file("zero.d", "BEGIN ZERO .D INCH\nNR      X         C\n3       +1        +2\n[END]\n");
+  check_completes(
+      control.run("SEL TABLE \"zero.d\"\nFN 18: SYSREAD Q1 = ID500 NR3 IDX1\n"
+                  "FN 18: SYSREAD Q2 = ID500 NR3 IDX6\nTOOL CALL 30 Z\n"
+                  "TCH PROBE 419 DATUM IN ONE AXIS Q263=+25.4 Q264=+0 Q261=-5 Q320=+0 Q260=+30 "
+                  "Q272=+1 Q267=+1 Q305=+3 Q333=+0 Q303=+0\nFN 18: SYSREAD Q3 = ID500 NR3 IDX1\n"
+                  "FN 17: SYSWRITE ID500 NR3 IDX1 = +50.8\nFN 26: TABOPEN zero.d\n"
+                  "FN 28: TABREAD Q4 = 3/\"X\""),
+      "Q1=25.4, Q2=2, Q3=25.4, Q4=2");
+}
+
+TEST_CASE("a cell of a datum table that is no number is an error that names it") {
+  Control control;
+  control.file("zero.d",
+               "BEGIN ZERO .D MM\nNR      X         Y\n1       +1O       +2\n2       +1\n[END]\n");
+  const auto shift = [&](std::string_view block) {
+    return outcome(control.run("SEL TABLE \"zero.d\"\n" + std::string(block)));
+  };
+  const std::string fails = "failed line 4: datum table TNC:\\nc_prog\\zero.d: ";
+  const std::string first = shift("CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 #1");
+  CHECK(first.starts_with(fails));
+  CHECK(first.find("row 1, column X") != std::string::npos);
+  CHECK(shift("CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 #2") == "completed");
+  CHECK(shift("FN 18: SYSREAD Q1 = ID500 NR2 IDX1") == "completed");
+  CHECK(shift("FN 18: SYSREAD Q1 = ID500 NR2 IDX2") ==
+        "failed line 3: ID500 NR2 IDX2 is not available");
+  CHECK(shift("FN 18: SYSREAD Q1 = ID500 NR1 IDX3") ==
+        "failed line 3: ID500 NR1 IDX3 is not available");
+}
+
 TEST_CASE("tables: missing rows, columns and values are errors that name them") {
   Control control;
   control.file("t.tab", "BEGIN T .TAB MM\nNR      X         Y\n0       +1\n[END]\n");
