@@ -164,7 +164,12 @@ NcResult<void> shift_datum(Channel& channel, const AxisCoordinates& axes) {
 NcResult<void> datum_shift(Channel& channel, Words words) {
   if (const Word* row = find(words, Letter::Row))
     return shift_datum_to_row(channel, TRY(whole(channel, row->value)));
-  return shift_datum(channel, TRY(read_axis_words(channel, words)));
+  const auto axes = TRY(read_axis_words(channel, words));
+  for (const Axis axis : kAllAxes) {
+    if (axes[index(axis)] && !channel.state().ranges[index(axis)])
+      return make_fault(machine::FaultKind::AxisMissing, name(axis));
+  }
+  return shift_datum(channel, axes);
 }
 
 /// Tolerance of the path, which a simulated path does not have.

@@ -29,7 +29,7 @@ NcError unknown(const Address& address) {
   return nc_error(text + " is not available");
 }
 
-/// IDX 1 to 9: X Y Z A B C U V W. None for an axis that the machine lacks.
+/// IDX 1 to 9: X Y Z A B C U V W. None for U, V, W, which no simulated machine has.
 std::optional<Axis> axis_of(const Address& address) {
   const int index = address.index.value_or(1);
   if (index < 1 || index > static_cast<int>(kAxes)) return std::nullopt;
@@ -115,8 +115,10 @@ Answer find(const Channel& channel, const Address& address) {
   const auto& range = state.ranges[i];
   const auto has = [&](int last, SystemNeed need) {
     const bool is_axis = last > 0 && last <= static_cast<int>(kAxes);
-    return (!is_axis || (axis && i < static_cast<std::size_t>(last))) &&
-           (need != SystemNeed::Probe || probe) && (need != SystemNeed::Touch || touch);
+    // Up to 6 they are axes of the machine, which may lack a rotary one.
+    const bool has_axis = axis && i < static_cast<std::size_t>(last) && (last < 6 || range);
+    return (!is_axis || has_axis) && (need != SystemNeed::Probe || probe) &&
+           (need != SystemNeed::Touch || touch);
   };
   switch (key(address.id, address.nr)) {
 #define FITGAUGE_DATA(id, nr, last, need, value) \

@@ -76,9 +76,10 @@ TEST_CASE("FN 18 answers every number that the check takes for available") {
       if (!has_system_data(id, number, false)) continue;
       found += fmt::format(" {}", number);
       const std::string address = fmt::format("ID{} NR{} IDX{}", id, number,
-                                              id == 50   ? 30
-                                              : id == 10 ? 200
-                                                         : 1);
+                                              id == 50                    ? 30
+                                              : id == 10                  ? 200
+                                              : id == 350 && number == 50 ? 2
+                                                                          : 1);
       const std::string answer = system_data(
           address,
           "QS200 = \"a.h\"\nTOOL CALL 30 Z S1000\nL Z+300 FMAX\nTCH PROBE 0.0 REF. PLANE Q7 Z-\n"
@@ -200,6 +201,15 @@ TEST_CASE("an unknown system datum is an error, never 0") {
         "failed line 3: Tool not defined: tool 7 is not in the tool table");
   CHECK(system_data("ID240 NR1 IDX9") == "failed line 3: ID240 NR1 IDX9 is not available");
   CHECK(system_data("ID360 NR1 IDX1") == "failed line 3: ID360 NR1 IDX1 is not available");
+  for (const std::string address : {"ID240 NR1 IDX4", "ID220 NR2 IDX6", "ID230 NR2 IDX5"})
+    CHECK(system_data(address) == "failed line 3: " + address + " is not available");
+  CHECK(outcome(Control().run("CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 A+5")) ==
+        "failed line 3: Axis not available: A");
+  for (const std::string address : {"ID350 NR55 IDX3", "ID350 NR50 IDX1"})
+    CHECK(system_data(address, "TOOL CALL 30 Z") ==
+          "failed line 3: " + address + " is not available");
+  CHECK(Control().first_finding("FN 18: SYSREAD Q1 = ID350 NR55 IDX3") ==
+        "FN 18: ID350 NR55 IDX3 is not available here: the run fails when it reaches this block");
   CHECK(system_data("ID20 NR1.5").starts_with("failed line 3: Input value incorrect"));
 }
 
