@@ -115,7 +115,8 @@ NcResult<void> execute(Channel& channel, const klartext::CircleData& data) {
   const std::array results{circle.centre.x, circle.centre.y, circle.radius};
   for (std::size_t i = 0; i < results.size(); ++i) {
     const auto target = TRY(after(data.target, i));
-    TRY(channel.parameters.set(target, results[i]));
+    const double unit = channel.length_unit();
+    TRY(channel.parameters.set(target, rounded_length(results[i] * unit) / unit));
   }
   return {};
 }

@@ -116,6 +116,9 @@ NcResult<void> position(Channel& channel, const klartext::Motion& motion, const 
 /// @errors AxisMissing for U, V, W, which the simulated machine does not have.
 NcResult<machine::Axis> machine_axis(Letter letter);
 
+/// A length to a whole nanometre, as Q parameters get it (decision 21), without a negative zero.
+inline double rounded_length(double mm) { return std::round(mm * 1e6) / 1e6 + 0.0; }
+
 /// Returns the positions turned by whole turns into the ranges of the axes, each nearest to `from`.
 std::optional<machine::Vec3> in_range(const machine::MachineState& state, machine::Vec3 rotary,
                                       const machine::Vec3& from);

@@ -93,10 +93,12 @@ double offset_of(const machine::PresetFrame& frame, Axis axis) {
   return is_rotary(axis) ? frame.rotary_offsets_deg[i - 3] : frame.origin[i];
 }
 
+double rounded(Axis axis, double value) {
+  return is_rotary(axis) ? probing::to_angle(value) + 0.0 : rounded_length(value);
+}
+
 double position_data(const MachineState& state, Axis axis, CoordinateSystem system) {
-  // Rounds like results of cycles to a nanometre, so that equal positions are equal (decision 21).
-  const double steps = is_rotary(axis) ? 1e7 : 1e6;
-  return std::round(state.position(system)[axis] * steps) / steps + 0.0;
+  return rounded(axis, state.position(system)[axis]);
 }
 
 constexpr std::int64_t key(int id, int nr) { return std::int64_t{id} * 1000 + nr; }

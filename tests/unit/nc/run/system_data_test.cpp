@@ -146,6 +146,22 @@ TEST_CASE("the check notes system data that the run refuses for want of a cycle,
   }
 }
 
+TEST_CASE("a touch and the circle through points are read to a whole nanometre") {
+  Control control;
+  control.setup.features = {machine::Block{{0, -50, -40}, {90, 50, 0}}};
+  const RunResult result = control.run(
+      "TOOL CALL 30 Z\nL X-10 Y+10 Z-5 R0 FMAX\nTCH PROBE 0.0 REF. PLANE Q7 X+\nTCH PROBE 0.1 "
+      "X-5.1 "
+      "Y+10 Z-5\n"
+      "FN 18: SYSREAD Q20 = ID360 NR1 IDX1\nQ30 = 0.3\nQ31 = 0.1\nQ32 = 0.1\nQ33 = 0.3\n"
+      "Q34 = -0.1\nQ35 = 0.1\nFN 23: Q40 = CDATA Q30");
+  CHECK(outcome(result) == "completed");
+  CHECK(number_of(result, "Q20") == 0);
+  CHECK(number_of(result, "Q40") == 0.1);
+  CHECK(number_of(result, "Q41") == 0.1);
+  CHECK(number_of(result, "Q42") == 0.2);
+}
+
 TEST_CASE("FN 17 writes every column of a tool that FN 18 reads") {
   for (const int nr : {1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 13, 14,
                        15, 16, 17, 18, 19, 20, 21, 22, 28, 32, 33, 36}) {
