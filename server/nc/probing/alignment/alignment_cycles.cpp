@@ -12,10 +12,10 @@ constexpr std::array k400Parameters =
 
 CycleResult<void> rotate(const CycleContext& context, ProbingMotion& motion) {
   const auto edge = TRY(probe_line(context, motion));
-  double angle = workpiece_angle(context.state().frames, motion.plane(), edge.direction()) -
-                 context.number(307);
+  double angle = workpiece_angle(context.state().frames, motion.plane(), edge.direction(),
+                                 context.number(307));
   // Along the secondary axis, that axis is the reference line, with Q307 = 90 or 0.
-  if (edge.axis == 0) angle -= 90 * std::round(angle / 90);
+  if (edge.axis == 0) angle = std::remainder(angle, 90);
   const Vec3 rotation = turned_rotation(context.state().frames, motion.plane(), angle);
   return set_basic_rotation(context, rotation, context.whole(305));
 }
@@ -55,7 +55,7 @@ CycleResult<void> compensate(const CycleContext& context, const WorkingPlane& pl
   const Vec3 direction = second - first;
   if (direction == Vec3{}) return nc_error(1081, "both centres are the same");
   const double angle =
-      workpiece_angle(context.state().frames, plane, direction) - context.number(307);
+      workpiece_angle(context.state().frames, plane, direction, context.number(307));
   if (context.whole(402) == 0) {
     const Vec3 rotation = turned_rotation(context.state().frames, plane, angle);
     return set_basic_rotation(context, rotation, context.whole(305));

@@ -10,13 +10,14 @@ Matrix3 tilt_of(const Frames& frames) {
   return frames.plane() ? Matrix3::spatial(frames.plane()->spatial_deg) : Matrix3{};
 }
 
-double workpiece_angle(const Frames& frames, const WorkingPlane& plane, const Vec3& direction) {
+double workpiece_angle(const Frames& frames, const WorkingPlane& plane, const Vec3& direction,
+                       double reference_deg) {
   const Vec3 machine = frames.direction_to_machine(plane.to_input(direction));
   const Vec3 workpiece = frames.direction_from_machine(machine, CoordinateSystem::Workpiece);
   const Vec3 along = plane.from_input(tilt_of(frames).transposed() * workpiece);
-  const double angle = machine::degrees(std::atan2(along.y, along.x));
-  if (angle > 90) return angle - 180;
-  return angle <= -90 ? angle + 180 : angle;
+  const double angle =
+      std::remainder(machine::degrees(std::atan2(along.y, along.x)) - reference_deg, 180);
+  return angle == -90 ? 90 : angle;
 }
 
 Vec3 turned_rotation(const Frames& frames, const WorkingPlane& plane, const Matrix3& turn) {

@@ -7,11 +7,12 @@ namespace fitgauge::probing {
 /// Returns the tilted plane in the workpiece system; the identity without one.
 machine::Matrix3 tilt_of(const machine::Frames& frames);
 
-/// Returns the angle, -90 < angle <= 90, from the main axis to a line in the plane. The main axis
-/// is that of the workpiece system, or of the tilted plane if one is active.
+/// Returns the angle, -90 < angle <= 90, from a reference line to a line in the plane. The
+/// reference line is at `reference_deg` to the main axis of the workpiece system, or of the tilted
+/// plane if one is active.
 /// @param direction of the line, in plane coordinates of the input system.
 double workpiece_angle(const machine::Frames& frames, const WorkingPlane& plane,
-                       const Vec3& direction);
+                       const Vec3& direction, double reference_deg = 0);
 
 /// Returns the spatial angles of the active basic rotation after a further turn, in plane
 /// coordinates of the input system. @pre nothing is mirrored or scaled.

@@ -71,6 +71,26 @@ TEST_CASE("400 along the secondary axis, whether Q307 says 0 or 90") {
   }
 }
 
+TEST_CASE("400, 401 and 402 turn by the least angle between the line and Q307") {
+  for (const double reference : {-90.0, 90.0, 180.0, 270.0}) {
+    for (const double off : {1.0, -1.0}) {
+      CAPTURE(reference);
+      CAPTURE(off);
+      ProbingBench bench(two(reference + off, true));
+      const auto [sine, cosine] = machine::sine_cosine(reference);
+      const Values at{{268, 20 * cosine}, {269, 20 * sine}, {270, 120 * cosine}, {271, 120 * sine}};
+      CHECK(bench.run(401, with(with(kHoles, at), {{307, reference}})) == 0);
+      CHECK(near(rotation(bench), off));
+      ProbingBench studs(two(reference + off, false));
+      CHECK(studs.run(402, with(with(kStuds, at), {{307, reference}})) == 0);
+      CHECK(near(rotation(studs), off));
+    }
+  }
+  ProbingBench edge({edge_at(-1)});
+  CHECK(edge.run(400, with(kEdge, {{307, 180.0}})) == 0);
+  CHECK(near(rotation(edge), -1));
+}
+
 TEST_CASE("401 and 402 take the line between two holes or studs") {
   for (const double angle : {0.0, 1.25, -0.75}) {
     ProbingBench holes(two(angle, true));
