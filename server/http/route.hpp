@@ -47,6 +47,7 @@ struct Parameter {
   ParameterType type = Text{};
   bool required = false;  ///< a path parameter always is
   std::string description{};
+  bool replaces_accept = false;  ///< its argument names the form of the response
 };
 
 enum class BodyUse : std::uint8_t {

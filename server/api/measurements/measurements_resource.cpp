@@ -77,8 +77,7 @@ std::vector<Parameter> list_parameters() {
             "lists only records with notes"),
       query("last", http::Integer{.min = 1, .max = 1000},
             "Only this number of the newest; not with `limit` or `after`"),
-      query("format", http::Words{{"json", "csv", "ndjson", "dfq", "qif", "xlsx"}},
-            "Format; replaces Accept"),
+      format_of({"json", "csv", "ndjson", "dfq", "qif", "xlsx"}),
   };
   return measurement_filter_parameters() + of_list + download_parameters();
 }

@@ -37,9 +37,13 @@ bool wants_csv(const Request& request) {
   return request.response_type() == "text/csv";
 }
 
-Parameter csv_or_json() {
-  return query("format", http::Words{{"json", "csv"}}, "Format; replaces Accept");
+Parameter format_of(std::vector<std::string> forms) {
+  auto format = query("format", http::Words{std::move(forms)}, "Format; replaces Accept");
+  format.replaces_accept = true;
+  return format;
 }
+
+Parameter csv_or_json() { return format_of({"json", "csv"}); }
 
 bool prefers_async(const Request& request) {
   bool found = false;

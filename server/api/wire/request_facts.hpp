@@ -19,7 +19,8 @@ bool prefers_async(const Request& request);
 
 /// Returns whether CSV is requested instead of JSON, by `format` or, without it, by Accept.
 bool wants_csv(const Request& request);
-/// The query parameter of such a route.
+/// The query parameter `format` of a route, which replaces Accept.
+Parameter format_of(std::vector<std::string> forms);
 Parameter csv_or_json();
 
 /// The Idempotency-Key without its quotes: quoted and bare are one key.

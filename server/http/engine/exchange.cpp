@@ -235,6 +235,13 @@ std::optional<Error> Exchange::take_headers() {
   return std::nullopt;
 }
 
+bool Exchange::names_form() const {
+  const auto& parameters = request_.route_->parameters;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (parameters[i].replaces_accept && request_.arguments_[i]) return true;
+  return false;
+}
+
 std::optional<Refusal> Exchange::negotiate() {
   const std::vector<std::string>& types = request_.route_->response_types;
   if (codings_.gzip == 0 && codings_.identity == 0) {
@@ -247,6 +254,7 @@ std::optional<Refusal> Exchange::negotiate() {
   const std::string accept = head_->find_list("Accept").value_or("");
   if (trim(accept).empty()) return std::nullopt;
   const std::string* const best = preferred_type(accept, types);
+  if (best == nullptr && names_form()) return std::nullopt;
   if (best == nullptr) {
     return Refusal{406, ErrorCode::NotAcceptable,
                    fmt::format("Accept allows no type of this response: ask for one of: {}",

@@ -166,6 +166,8 @@ class Exchange {
   std::optional<Error> take_query();
   std::optional<Error> take_headers();
   std::optional<Refusal> negotiate();
+  /// Returns whether an argument of the request replaces its Accept.
+  bool names_form() const;
   std::optional<Refusal> check_expectation();
   std::optional<Refusal> check_body();
 

@@ -24,7 +24,8 @@ class Forms(DaemonTest):
         self.assertNotIn("T7", rows[0]["limits"])
         answer = self.daemon.get("/v1/tables/hole?classes=H7,JS7,T7", Accept="text/csv")
         self.assertIn("accept", answer.headers["vary"].lower())
-        self.assertEqual(answer.body, self.daemon.get("/v1/tables/hole?classes=H7,JS7,T7&format=csv").body)
+        self.assertEqual(answer.body, self.daemon.get("/v1/tables/hole?classes=H7,JS7,T7&format=csv", Accept="text/html").body,
+                         "format replaces Accept")
         for row, line in zip(rows, csv.DictReader(io.StringIO(answer.text)), strict=True):
             self.assertEqual(float(line["over_mm"]), row["over_mm"])
             for name in ("H7", "JS7", "T7"):
