@@ -62,10 +62,10 @@ Result<std::optional<std::string>> idempotency_key(const Request& request) {
   std::string_view key = trim(*header);
   if (key.size() >= 2 && key.front() == '"' && key.back() == '"')
     key = key.substr(1, key.size() - 2);
-  const bool visible = std::ranges::all_of(key, [](char c) { return c >= ' ' && c <= '~'; });
-  if (key.empty() || key.size() > kLongest || !visible) {
+  const bool printable = std::ranges::all_of(key, [](char c) { return c >= ' ' && c <= '~'; });
+  if (key.empty() || key.size() > kLongest || !printable) {
     return Error{ErrorCode::IdempotencyKeyInvalid,
-                 "Idempotency-Key must have 1 to 255 visible ASCII characters"};
+                 "Idempotency-Key must have 1 to 255 printable ASCII characters"};
   }
   return std::optional(std::string(key));
 }
@@ -149,7 +149,7 @@ Parameter idempotency_parameter() {
           .type = http::Text{.schema = R"({"type":"string","pattern":)"
                                        R"("^(\"[ -~]{1,255}\"|[!#-~][ -~]{0,254})$"})"},
           .description =
-              "1 to 255 visible ASCII characters, quoted or bare: a repeated request "
+              "1 to 255 printable ASCII characters, quoted or bare: a repeated request "
               "returns the first response"};
 }
 

@@ -24,7 +24,7 @@ Parameter format_of(std::vector<std::string> forms);
 Parameter csv_or_json();
 
 /// The Idempotency-Key without its quotes: quoted and bare are one key.
-/// @errors IdempotencyKeyInvalid unless it has 1 to 255 visible ASCII characters.
+/// @errors IdempotencyKeyInvalid unless it has 1 to 255 printable ASCII characters.
 Result<std::optional<std::string>> idempotency_key(const Request& request);
 
 /// Preconditions of a request on the current representation (RFC 9110,
