@@ -44,8 +44,7 @@ Result<void> check_change(const DocumentService::Precondition& precondition, Doc
       precondition(current ? std::optional<std::string_view>(current->text) : std::nullopt)) {
     return {};
   }
-  return Error{ErrorCode::PreconditionFailed,
-               called(kind, name) + " has changed since you read it: read it again"};
+  return precondition_failed(called(kind, name), current.has_value());
 }
 
 /// Documents of a centre are changed there. @errors Forbidden
@@ -125,6 +124,14 @@ void add_users(std::vector<std::string>& users, const Stores& stores, DocumentKi
     }
     users.push_back(called(kind, user));
   }
+}
+
+Error precondition_failed(std::string_view what, bool exists) {
+  return {ErrorCode::PreconditionFailed,
+          exists ? fmt::format("{} exists and is not as If-Match or If-None-Match asks: read it "
+                               "again, and repeat the change",
+                               what)
+                 : fmt::format("{} does not exist: store it without If-Match", what)};
 }
 
 Result<void> check_unused(std::string_view what, const std::vector<std::string>& users) {

@@ -17,6 +17,8 @@ std::string_view gauge_of_calibration(std::string_view name);
 /// feature or fixture of the workpiece names something. Used inside a job.
 void add_users(std::vector<std::string>& users, const Stores& stores, DocumentKind kind,
                const std::function<bool(const JsonValue&)>& names_it);
+/// The state does not allow the change that If-Match or If-None-Match asked for.
+Error precondition_failed(std::string_view what, bool exists);
 /// @errors DocumentInUse, if there are users.
 Result<void> check_unused(std::string_view what, const std::vector<std::string>& users);
 

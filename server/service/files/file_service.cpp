@@ -11,16 +11,13 @@ Error unknown(const interpreter::ControlPath& path) {
   return {ErrorCode::FileUnknown, "file not found: " + path.text()};
 }
 
-Error changed(const interpreter::ControlPath& path) {
-  return {ErrorCode::PreconditionFailed,
-          path.text() + " has changed since you read it: read it again"};
-}
-
-bool holds(const FileService::Precondition& precondition, const Stores& stores,
-           const interpreter::ControlPath& path) {
-  if (!precondition) return true;
+/// @errors PreconditionFailed
+Result<void> check_change(const FileService::Precondition& precondition, const Stores& stores,
+                          const interpreter::ControlPath& path) {
+  if (!precondition) return {};
   const auto file = stores.files.find(path.text());
-  return precondition(file ? std::optional<std::string_view>(file->content) : std::nullopt);
+  if (precondition(file ? std::optional<std::string_view>(file->content) : std::nullopt)) return {};
+  return precondition_failed(path.text(), file.has_value());
 }
 
 }  // namespace
@@ -69,7 +66,7 @@ void FileService::write(interpreter::ControlPath path, std::string_view bytes,
   database_.writer().submit(
       [path = std::move(path), bytes, caller = std::move(caller),
        precondition = std::move(precondition), now = clock_.now()](Stores& stores) -> Result<bool> {
-        if (!holds(precondition, stores, path)) return changed(path);
+        TRY(check_change(precondition, stores, path));
         return stores.files
             .put({.path = path.text(),
                   .content = bytes,
@@ -105,7 +102,7 @@ void FileService::remove(interpreter::ControlPath path, std::optional<std::strin
           });
         }
         TRY(check_unused(path.text(), users));
-        if (!holds(precondition, stores, path)) return changed(path);
+        TRY(check_change(precondition, stores, path));
         if (!stores.files.remove(path.text(), now.nanoseconds, caller)) return unknown(path);
         return true;
       },

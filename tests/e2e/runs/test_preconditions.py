@@ -16,12 +16,12 @@ class Preconditions(DaemonTest):
                 headers["Content-Type"] = "application/json"
             return self.daemon.request(method, path, body, headers)
 
-        def refused(answer):
-            self.assert_problem(answer, 412, "precondition.failed")
+        def refused(answer, why=""):
+            self.assertIn(why, self.assert_problem(answer, 412, "precondition.failed")["detail"])
 
         self.assertEqual(call("GET", If_Match="*").status, 404)
         self.assertEqual(call("DELETE", If_Match='"none"').status, 404)
-        refused(call("PUT", next(texts), If_Match="*"))
+        refused(call("PUT", next(texts), If_Match="*"), "does not exist")
         self.assertEqual(call("GET").status, 404, "a refused PUT stores nothing")
 
         made = call("PUT", next(texts), If_None_Match="*")
@@ -29,7 +29,7 @@ class Preconditions(DaemonTest):
         first = made.headers["etag"]
         self.assertRegex(first, '^"[^"]+"$', "strong")
         self.assertEqual(call("GET").headers["etag"], first)
-        refused(call("PUT", next(texts), If_None_Match="*"))
+        refused(call("PUT", next(texts), If_None_Match="*"), "exists")
         refused(call("PUT", next(texts), If_Match='"99"'))
         refused(call("PUT", next(texts), If_Match="W/" + first))
         refused(call("PUT", next(texts), If_None_Match='"99", W/' + first))
