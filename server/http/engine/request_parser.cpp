@@ -120,6 +120,12 @@ RequestParser::Step RequestParser::parse(std::string_view input, std::size_t& us
 RequestParser::Step RequestParser::take_error(const beast::error_code& error,
                                               std::string_view pending) {
   if (error == beast::http::error::need_more) return need_more(pending);
+  // Beast takes a line that ends with LF alone for another version.
+  const std::string_view line = pending.substr(0, pending.find('\n'));
+  if (error == beast::http::error::bad_version &&
+      (line.ends_with("HTTP/1.1") || line.ends_with("HTTP/1.0"))) {
+    return refuse(400, ErrorCode::RequestMalformed, describe(beast::http::error::bad_line_ending));
+  }
   if (error == beast::http::error::bad_version)
     return refuse(400, ErrorCode::VersionUnsupported, "HTTP version must be 1.0 or 1.1");
   if (error == beast::http::error::header_limit) return refuse_long_header();

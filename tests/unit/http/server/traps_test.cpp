@@ -71,7 +71,7 @@ TEST_CASE("a folded field is refused") {
 }
 
 TEST_CASE("a line that ends with LF alone is refused at once") {
-  check_refused("GET /a HTTP/1.1\nHost: h\n\n", 400, "request.");
+  check_refused("GET /a HTTP/1.1\nHost: h\n\n");
   check_refused("GET /a HTTP/1.1\r\nHost: h\nX: y\r\n\r\n");
   check_refused("GET /a HTTP/1.1\r\nHost: h\r\n\n");
   check_refused("GET /a HTTP/1.1\r\nHost: h\r\r\n\r\n");
