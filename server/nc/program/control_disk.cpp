@@ -47,7 +47,7 @@ Result<std::string> normalise(std::string_view text, std::string_view start) {
   text = trim(text);
   if (std::any_of(text.begin(), text.end(),
                   [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; })) {
-    return path_error("", "holds a control character");
+    return Error{ErrorCode::FilePathInvalid, "a path has no control characters"};
   }
   if (text.size() >= kDrive.size() && ascii_iequals(text.substr(0, kDrive.size()), kDrive)) {
     text.remove_prefix(kDrive.size());
