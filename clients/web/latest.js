@@ -7,6 +7,19 @@ export const pause = () => new Promise((resolve) => {
   port2.postMessage(null);
 });
 
+/** `act` for calls that come while one still runs: each waits for the one before. The second of two clicks, with nothing typed between them, is the first. */
+export function inTurn(act, textOf) {
+  let last = Promise.resolve();
+  let asked;
+  return (...given) => {
+    const text = textOf();
+    if (text === asked) return last;
+    asked = text;
+    last = last.catch(() => {}).then(() => act(...given)).finally(() => { if (asked === text) asked = undefined; });
+    return last;
+  };
+}
+
 export class Latest {
   #question = new AbortController();
 

@@ -1,15 +1,17 @@
 /** Uncertainty budgets as a table: a row for each contribution, evaluated as one types, with a model where the quantity is computed of others. */
 
 import { getJson, request, url } from '../api.js';
+import { mayDrop, readDocument, sayStoredFirst, writeDocument } from '../documents.js';
 import { field, h, refill } from '../dom.js';
 import { explain, number, t } from '../i18n.js';
-import { Latest } from '../latest.js';
+import { inTurn, Latest } from '../latest.js';
 
 const NUMBERS = ['value', 'standard_uncertainty', 'half_width', 'sensitivity', 'degrees_of_freedom'];
 const DISTRIBUTIONS = ['normal', 'rectangular', 'triangular', 'u_shaped', 't'];
 const DIVISOR = { rectangular: Math.sqrt(3), triangular: Math.sqrt(6), u_shaped: Math.sqrt(2) };
 const COLUMNS = ['name', ...NUMBERS.slice(0, 3), 'distribution', ...NUMBERS.slice(3)];
 const DIGITS = 4;
+const pathOf = (name) => ['uncertainties', name];
 
 /** What is no number goes as it was typed: the service says what is wrong with it. */
 const numberOf = (text) => (/^[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?$/i.test(text) ? Number(text.replace(',', '.')) : text);
@@ -25,25 +27,28 @@ export function uncertaintyOf({ standard_uncertainty: own, half_width: half, lim
 }
 
 export class Budgets {
-  #opened = {};
+  #opened = null; // {name, tag, body}; the name is '' and the tag null while it is new
+  #before = '';
 
   /** @param name of the budget shown first; @param onName is told of another; @param leaving ends it */
   constructor({ name, onName, leaving }) {
     Object.assign(this, { onName, leaving });
     this.computing = new Latest(leaving);
-    this.choice = h('select', { name: 'stored-budget', onchange: () => this.#try(() => this.open(this.choice.value)) });
+    this.opening = new Latest(leaving);
+    this.choice = h('select', { name: 'stored-budget', onchange: () => this.#choose() });
     this.name = h('input', { type: 'text', name: 'budget-name', maxlength: 200, autocomplete: 'off', spellcheck: 'false' });
     this.model = h('input', { type: 'text', name: 'model', autocomplete: 'off', spellcheck: 'false', placeholder: 'L*(1 + a*(20 - t))', onchange: () => this.evaluate() });
     this.rows = h('tbody', { onchange: () => this.evaluate() });
     this.note = h('p.note', { role: 'alert' });
     this.done = h('p.aside', { role: 'status' });
     this.result = h('dl.tiles');
+    this.adding = h('button', { type: 'button', onclick: () => this.#add() }, t('budget.add'));
     this.element = h('section.sheet.budgets', { 'aria-label': t('budget.title') }, h('h2', t('budget.title')),
       h('div.line', field(t('budget.stored'), this.choice), field(t('budget.name'), this.name), field(t('budget.model'), this.model, t('budget.model_hint'))),
       h('div.wide', { tabindex: 0, role: 'region', 'aria-label': t('budget.contributions') }, h('table', h('caption', t('budget.contributions')),
         h('thead', h('tr', [...COLUMNS, 'u', 'share'].map((column) => h('th', { scope: 'col' }, t(`budget.${column}`))), h('td'))), this.rows)),
       h('p.aside', t('budget.how')), this.note, this.result,
-      h('p.actions', h('button', { type: 'button', onclick: () => this.#add() }, t('budget.add')),
+      h('p.actions', this.adding,
         h('button.primary', { type: 'button', onclick: () => this.#try(() => this.#store()) }, t('budget.store')), this.done));
     this.#try(async () => {
       await this.#list(name);
@@ -66,14 +71,34 @@ export class Budgets {
     this.choice.value = chosen;
   }
 
+  /** The choice says what is open until another is. */
+  #choose() {
+    const { value } = this.choice;
+    this.choice.value = this.#opened?.name ?? '';
+    return this.#change(value);
+  }
+
+  #change(name) {
+    return this.#try(async () => { if (!this.#opened || this.#text === this.#before || await mayDrop()) await this.open(name); });
+  }
+
   /** Shows a stored budget; '' begins another. */
   async open(name) {
-    this.#opened = name ? await getJson(url(['uncertainties', name]), { signal: this.leaving }) : { contributions: [{}, {}] };
-    this.name.value = name;
-    this.model.value = this.#opened.model ?? '';
-    this.rows.replaceChildren(...this.#opened.contributions.map((one) => this.#row(one)));
+    const found = await this.opening.run(async (signal) => (name ? readDocument(pathOf(name), signal) : { body: { contributions: [{}, {}] }, tag: null }));
+    if (!found) return;
+    const { body } = found;
+    this.#opened = { name, ...found };
+    this.choice.value = this.name.value = name;
+    this.model.value = body.model ?? '';
+    this.rows.replaceChildren(...body.contributions.map((one) => this.#row(one)));
+    this.#before = this.#text;
     this.onName(name);
     await this.evaluate();
+  }
+
+  /** What it would store, as one text: to see whether something was changed. */
+  get #text() {
+    return JSON.stringify([this.name.value.trim(), this.value]);
   }
 
   #row(one) {
@@ -82,10 +107,17 @@ export class Budgets {
       const control = column === 'distribution' ? h('select', { name: column, 'aria-label': t('budget.distribution') }, ['', ...DISTRIBUTIONS].map((value) => h('option', { value }, value ? t(`budget.of.${value}`) : '–'))) : input(column);
       control.value = one[column] === undefined ? '' : number(String(one[column])).replace('−', '-');
       return h('td', control);
-    }), h('td.u'), h('td.share'), h('td', h('button.quiet', { type: 'button', 'aria-label': t('budget.remove_this', { name: one.name ?? '' }), onclick: () => { row.remove(); this.evaluate(); } }, t('budget.remove'))));
+    }), h('td.u'), h('td.share'), h('td', h('button.quiet', { type: 'button', 'aria-label': t('budget.remove_this', { name: one.name ?? '' }), onclick: () => this.#remove(row) }, t('budget.remove'))));
     // What the table has no column for stays as it was.
     row.kept = Object.fromEntries(Object.entries(one).filter(([name]) => !COLUMNS.includes(name)));
     return row;
+  }
+
+  #remove(row) {
+    const next = row.nextElementSibling ?? row.previousElementSibling;
+    row.remove();
+    (next?.querySelector('input') ?? this.adding).focus();
+    this.evaluate();
   }
 
   #add() {
@@ -100,7 +132,7 @@ export class Budgets {
 
   /** The budget as it is typed. */
   get value() {
-    const { model: _, contributions: __, ...kept } = this.#opened;
+    const { model: _, contributions: __, ...kept } = this.#opened?.body ?? {};
     const contributions = this.#filled.map((row) => ({ ...Object.fromEntries([...row.querySelectorAll('input, select')]
       .map(({ name, value }) => [name, NUMBERS.includes(name) ? value.trim() && numberOf(value.trim()) : value.trim()]).filter(([, value]) => value !== '')), ...row.kept }));
     return { ...kept, ...(this.model.value.trim() && { model: this.model.value.trim() }), contributions };
@@ -149,12 +181,26 @@ export class Budgets {
     }
   }
 
-  async #store() {
+  /** @param replacing whether what stands there now is replaced, whoever has written it */
+  #store = inTurn(async ({ replacing = false } = {}) => {
     const name = this.name.value.trim();
     if (!name) throw new Error(t('budget.name_missing'));
-    await request('PUT', url(['uncertainties', name]), { body: this.value, signal: this.leaving });
-    await this.#list(name);
-    await this.open(name);
+    const opened = this.#opened;
+    const isNew = name !== opened?.name;
+    const [body, text] = [this.value, this.#text];
+    try {
+      const tag = await writeDocument(pathOf(name), body, replacing ? undefined : isNew ? null : opened.tag);
+      if (this.#opened === opened) {
+        this.#opened = { name, tag, body };
+        this.#before = text;
+        this.onName(name);
+      }
+    } catch (problem) {
+      if (problem.status !== 412) throw problem;
+      sayStoredFirst(this.note, name, isNew, { open: () => this.#change(name), replace: () => this.#try(() => this.#store({ replacing: true })) });
+      return;
+    }
+    await this.#list(this.#opened.name);
     this.done.textContent = t('budget.done', { name });
-  }
+  }, () => this.#text);
 }

@@ -1,17 +1,24 @@
 /** The gauge studies that the service keeps: a table of them, and what stores the one of the form. */
 
-import { getJson, request, url } from '../api.js';
+import { getJson, url } from '../api.js';
 import { connection } from '../connection.js';
+import { readDocument, sayStoredFirst, writeDocument } from '../documents.js';
 import { field, h, refill } from '../dom.js';
 import { gaugeNames } from '../gauge/in_use.js';
 import { date, dayText, explain, t } from '../i18n.js';
+import { inTurn } from '../latest.js';
 
 const COLUMNS = ['study.name', 'field.gauge', 'study.kind', 'study.at'];
+const NONE = { name: '', tag: null };
+const pathOf = (name) => ['studies', name];
 
 export class StoredStudies {
-  /** @param orderOf gives the {kind, input} of the form; @param onStudy shows one that is chosen or was stored; @param leaving ends it */
-  constructor({ leaving, orderOf, onStudy }) {
-    Object.assign(this, { leaving, orderOf, onStudy });
+  /** That of the form, as it was read. */
+  #current = NONE;
+
+  /** @param orderOf gives the {kind, input} of the form; @param textOf gives all that is typed there; @param onStudy shows one that is chosen or was stored; @param leaving ends it */
+  constructor({ leaving, orderOf, textOf, onStudy }) {
+    Object.assign(this, { leaving, orderOf, textOf, onStudy });
     const input = (name, attributes) => h('input', { name, type: 'text', maxlength: 200, autocomplete: 'off', spellcheck: 'false', ...attributes });
     this.inputs = { name: input('study-name'), gauge: input('study-gauge', { list: 'gauges-of-studies' }), at: input('study-at', { type: 'date' }) };
     this.inputs.at.value = dayText(connection.now());
@@ -43,21 +50,42 @@ export class StoredStudies {
         h('button.quiet', { type: 'button', onclick: () => this.#try(() => this.#open(name)) }, name)), h('td', gauge), h('td', t(`study.kind.${kind}`)), h('td', date(new Date(at)))))))) : h('p.aside', t('study.stored_none')));
   }
 
+  /** The form begins another study. */
+  begin() {
+    this.#current = NONE;
+  }
+
+  async #read(name) {
+    const { body, tag } = await readDocument(pathOf(name), this.leaving);
+    this.#current = { name, tag };
+    return body;
+  }
+
   async #open(name) {
-    const study = await getJson(url(['studies', name]), { signal: this.leaving });
+    const study = await this.#read(name);
     this.inputs.name.value = name;
     this.inputs.gauge.value = study.gauge;
     this.inputs.at.value = study.at.slice(0, 10);
     await this.onStudy(study);
   }
 
-  async #store() {
+  /** @param replacing whether what stands there now is replaced, whoever has written it */
+  #store = inTurn(async ({ replacing = false } = {}) => {
     const { name, gauge, at } = Object.fromEntries(Object.entries(this.inputs).map(([key, { value }]) => [key, value.trim()]));
     if (!name || !gauge) throw new Error(t('study.name_missing'));
+    const typed = this.textOf();
     const { kind, input } = await this.orderOf();
-    const stored = await request('PUT', url(['studies', name]), { body: { gauge, at, kind, input }, signal: this.leaving });
+    const isNew = name !== this.#current.name;
+    try {
+      await writeDocument(pathOf(name), { gauge, at, kind, input }, replacing ? undefined : isNew ? null : this.#current.tag);
+    } catch (problem) {
+      if (problem.status !== 412) throw problem;
+      sayStoredFirst(this.note, name, isNew, { open: () => this.#try(() => this.#open(name)), replace: () => this.#try(() => this.#store({ replacing: true })) });
+      return;
+    }
+    const study = await this.#read(name);
+    if (this.textOf() === typed) await this.onStudy(study);
     await this.#list();
-    await this.onStudy(await stored.json());
     this.done.textContent = t('study.done', { name });
-  }
+  }, () => this.textOf() + Object.values(this.inputs).map(({ value }) => value).join());
 }

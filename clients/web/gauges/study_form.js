@@ -8,6 +8,7 @@ import { dayOf } from '../filter_bar.js';
 import { limitsOf } from '../gauge/held.js';
 import { gaugeValue } from '../gauge/reading.js';
 import { explain, t } from '../i18n.js';
+import { Latest } from '../latest.js';
 import { readJson, store } from '../stored.js';
 import { operatorOf } from '../verdict.js';
 import { StoredStudies } from './stored_studies.js';
@@ -31,6 +32,7 @@ const namesOf = (text, most) => (/^\d+$/.test(text.trim()) ? Array.from({ length
 export class StudyForm {
   constructor(leaving) {
     this.leaving = leaving;
+    this.computing = new Latest(leaving);
     this.state = { ...BEGUN, ...readJson(KEPT, {}) };
     const text = (name) => h(name === 'values' ? 'textarea' : 'input', { name, type: name !== 'values' && 'text', rows: name === 'values' && 6, autocomplete: 'off', spellcheck: 'false', oninput: () => this.#typed() });
     this.inputs = Object.fromEntries(FIELDS.map((name) => [name, text(name)]));
@@ -47,7 +49,7 @@ export class StudyForm {
       h('div.study-fields', field(t('study.kind'), this.kind), FIELDS.filter((name) => !PROCESS.includes(name)).map((name) => this.fields[name])),
       h('details', h('summary', t('study.process')), h('div.study-fields', PROCESS.map((name) => this.fields[name]))), this.taking, this.grid, this.note, this.said,
       h('p.actions', h('button.primary', { type: 'submit' }, t('study.compute')), h('button', { type: 'button', onclick: () => this.#clear() }, t('study.clear')))), this.result);
-    this.stored = new StoredStudies({ leaving, orderOf: () => this.#order(), onStudy: (study) => this.#open(study) });
+    this.stored = new StoredStudies({ leaving, orderOf: () => this.#order(), textOf: () => JSON.stringify(this.state), onStudy: (study) => this.#open(study) });
     this.element.append(this.stored.element);
     this.#show();
     this.#offer();
@@ -65,7 +67,10 @@ export class StudyForm {
     this.taken.append(...groups.map(({ characteristic }) => characteristic).filter(Boolean).map((name) => h('option', { value: name }, name)));
   }
 
+  /** A result is of the readings that it was computed of. */
   #keep() {
+    this.computing.run(() => {});
+    this.result.replaceChildren();
     store(KEPT, JSON.stringify(this.state));
   }
 
@@ -76,7 +81,7 @@ export class StudyForm {
   }
 
   #clear() {
-    this.result.replaceChildren();
+    this.stored.begin();
     this.#fill({ cells: {}, values: '' });
   }
 
@@ -126,6 +131,7 @@ export class StudyForm {
       const records = measurements.filter((record) => record.part_id && operatorOf(record));
       if (!records.length) throw Object.assign(new Error(t('study.no_records')));
       const { tolerance_um: um } = records[0];
+      this.stored.begin();
       const kept = fitting(records.map((record) => ({ part: record.part_id, operator: operatorOf(record), value: record.measured_mm })));
       this.#fill({ ...gridOf(kept.reverse()), tolerance: um === undefined ? '' : mmText(nmFromUm(um), 0) });
       if (next || kept.length < records.length) this.said.textContent = t('study.cut', { count: kept.length });
@@ -147,21 +153,26 @@ export class StudyForm {
     const { tolerance = '', reference = '', measurements = [], values = [], measuring_process: process, measuring_system: system } = input;
     const filled = { ...Object.fromEntries(PROCESS.map((name) => [name, (process ?? system)?.[name] ?? ''])), kind, tolerance, reference, values: values.join('\n') };
     this.#fill({ ...Object.fromEntries(Object.entries(filled).map(([name, value]) => [name, String(value)])), ...(measurements.length && gridOf(measurements)) });
-    try {
+    await this.#put(async () => {
       if (result.method && !result.tolerance_percent) throw new Error(t('study.other', { method: result.method }));
-      refill(this.result, await (await this.#order()).shown(result));
-      this.result.scrollIntoView({ block: 'nearest' });
-    } catch (problem) {
-      this.result.replaceChildren();
-      this.note.textContent = explain(problem);
-    }
+      return (await this.#order()).shown(result);
+    });
   }
 
-  async #compute() {
+  #compute() {
+    return this.#put(async (signal) => {
+      const { kind, input, shown } = await this.#order();
+      return shown(await (await request('POST', url(['statistics', kind]), { body: input, signal })).json());
+    });
+  }
+
+  /** Shows the result that `work` makes of the readings. */
+  async #put(work) {
     this.note.textContent = '';
     try {
-      const { kind, input, shown } = await this.#order();
-      refill(this.result, await shown(await (await request('POST', url(['statistics', kind]), { body: input, signal: this.leaving })).json()));
+      const made = await this.computing.run(work);
+      if (!made) return;
+      refill(this.result, made);
       this.result.scrollIntoView({ block: 'nearest' });
     } catch (problem) {
       this.result.replaceChildren();

@@ -2,11 +2,12 @@
 
 import { getJson, url } from '../api.js';
 import { confirm } from '../confirm.js';
+import { mayDrop, readDocument, removeDocument, sayStoredFirst, writeDocument } from '../documents.js';
 import { field, h, refill } from '../dom.js';
 import { explain, t } from '../i18n.js';
+import { inTurn } from '../latest.js';
 import { go } from '../route.js';
 import { forget, readJson, store as keep, storedKeys } from '../stored.js';
-import { readDocument, removeDocument, writeDocument } from './plan_store.js';
 import { iconButton, sortable } from './sorting.js';
 
 const DRAFTS = 'catalogue-draft/';
@@ -108,15 +109,22 @@ export class Catalogues {
       element.replaceChildren();
       for (const text of value[list].length ? value[list] : ['']) this.#add(list, text);
     }
-    const isDraft = typed !== undefined;
-    this.#before = isDraft ? '' : this.#text;
     this.done.textContent = '';
-    if (!isDraft) go({ view: 'plans', options: { catalogue: name } }, { refine: true });
+    if (typed === undefined) return this.#settle({ name, tag }, this.#text);
+    this.#before = '';
+    this.#show();
+  }
+
+  /** @param text of the form as it is stored */
+  #settle(current, text) {
+    this.#current = current;
+    this.#before = text;
+    go({ view: 'plans', options: { catalogue: current.name } }, { refine: true });
     this.#show();
   }
 
   async #mayLeave() {
-    return !this.#isDirty || confirm(t('plans.drop_sure'), t('plans.drop'));
+    return !this.#isDirty || mayDrop();
   }
 
   async #open(name, said = '') {
@@ -179,29 +187,35 @@ export class Catalogues {
   }
 
   /** @param replacing whether what stands there now is replaced, whoever has written it */
-  async #store({ replacing = false } = {}) {
+  #store = inTurn(async ({ replacing = false } = {}) => {
     const name = this.name.value.trim();
     if (!name) {
       this.note.textContent = t('catalogue.name_missing');
       this.name.focus();
       return;
     }
-    const { name: old, tag } = this.#current;
+    const current = this.#current;
+    if (!current) return;
+    const { name: old, tag } = current;
     const isOther = tag !== null && name !== old;
     for (const row of this.form.querySelectorAll('li')) if (!row.querySelector('input').value.trim()) row.remove();
-    const { value } = this;
+    for (const input of this.form.querySelectorAll('[aria-invalid]')) input.removeAttribute('aria-invalid');
+    const [value, text] = [this.value, this.#text];
     try {
       const stored = await writeDocument(pathOf(name), value, replacing ? undefined : isOther ? null : tag);
-      this.#fill(value, { name, tag: stored });
+      if (this.#current === current) this.#settle({ name, tag: stored }, text);
     } catch (problem) {
-      if (problem.status === 412) return this.#sayChanged(name, isOther || tag === null);
+      if (problem.status === 412) {
+        const open = () => this.#attempt(() => { this.#before = this.#text; return this.#open(name); });
+        return sayStoredFirst(this.note, name, isOther || tag === null, { open, replace: () => this.#attempt(() => this.#store({ replacing: true })) });
+      }
       return this.#mark(problem);
     }
     this.onStored();
     const kept = isOther && await removeDocument(pathOf(old), tag).then(() => '', explain);
     this.done.textContent = [t('catalogue.stored', { name, causes: value.causes.length, measures: value.measures.length }), kept && t('catalogue.old_stays', { old, reason: kept })].filter(Boolean).join(' ');
-    return this.#list();
-  }
+    await this.#list();
+  }, () => this.#text);
 
   /** Says at its entry what is wrong. */
   #mark(problem) {
@@ -211,13 +225,6 @@ export class Catalogues {
     }
     this.form.querySelector('[aria-invalid]')?.focus();
     throw problem;
-  }
-
-  /** Another has been there first: nothing is replaced before somebody has said so. */
-  #sayChanged(name, isNew) {
-    const act = (word, action) => h('button', { type: 'button', onclick: () => this.#attempt(action) }, t(word));
-    refill(this.note, t(isNew ? 'catalogue.exists' : 'catalogue.changed', { name }), ' ',
-      act(isNew ? 'plans.open_it' : 'catalogue.theirs', () => { this.#before = this.#text; return this.#open(name); }), ' ', act('catalogue.mine', () => this.#store({ replacing: true })));
   }
 
   async #remove() {

@@ -183,7 +183,7 @@ export class DrawingReview {
       }
       // Somebody was there first: it is held against what stands there now.
       await this.#compare();
-      this.note.textContent = t('plans.changed', { part });
+      this.note.textContent = t('document.changed', { name: part });
     }
   }
 }

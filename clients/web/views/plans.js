@@ -1,8 +1,10 @@
 /** Plans: what there are, a form for each, and new ones from drawings and tables. */
 
 import { confirm } from '../confirm.js';
+import { mayDrop, sayStoredFirst } from '../documents.js';
 import { h, refill } from '../dom.js';
 import { dateTime, explain, t } from '../i18n.js';
+import { inTurn } from '../latest.js';
 import { Catalogues } from '../plans/catalogues.js';
 import { DropZone } from '../plans/drop_zone.js';
 import { csvOf } from '../plans/plan_table.js';
@@ -23,12 +25,12 @@ export function mount(main, route) {
   const form = new PlanForm({ onChange: () => showState(), leaving: signal });
   const catalogues = new Catalogues({ onStored: () => form.offer('catalogue'), leaving: signal });
   const note = h('p.note', { role: 'alert' });
-  const done = h('p.done', { role: 'status' });
+  const done = h('p.done', { role: 'status', tabindex: -1 });
   const title = h('span');
   const state = h('span.aside', { role: 'status' });
   const button = (name, onclick, selector = 'button') => h(selector, { type: 'button', onclick }, t(name));
   const storing = h('button.primary', { type: 'submit' }, t('plans.store'));
-  const dropping = button('plans.drop', () => attempt(drop));
+  const dropping = button('document.drop', () => attempt(drop));
   const ofStored = [button('plans.copy', () => attempt(copyOpen)), button('plans.save_csv', () => saveCsv()), button('plans.delete', () => attempt(() => remove(current.part, current.tag)))];
   const rows = h('tbody');
   const table = h('div.scroll.records.plans-there', { tabindex: 0, role: 'region', 'aria-label': t('view.plans') }, h('table',
@@ -60,12 +62,12 @@ export function mount(main, route) {
     refill(done, text);
   }
 
-  /** What was stored can be measured by: the next thing somebody wants. */
+  /** What was stored can be measured by: the next thing somebody wants. @returns the way there */
   function sayStored(text, part) {
     const measure = h('a.button', { href: toStation(part) }, t('plans.measure'));
     note.textContent = '';
     refill(done, text, ' ', measure);
-    measure.focus();
+    return measure;
   }
 
   async function attempt(action) {
@@ -130,7 +132,7 @@ export function mount(main, route) {
     if (!await leaveForm()) return;
     const { plan, tag } = await readPlan(part, signal);
     edit(plan, tag, part);
-    if (text) sayStored(text, part);
+    if (text) sayStored(text, part).focus();
     else say('');
   }
 
@@ -156,7 +158,7 @@ export function mount(main, route) {
     await refresh();
   }
 
-  const leaveForm = async () => !isDirty() || confirm(t('plans.drop_sure'), t('plans.drop'));
+  const leaveForm = async () => !isDirty() || mayDrop();
 
   async function drop() {
     const { part, tag } = current;
@@ -167,7 +169,8 @@ export function mount(main, route) {
   }
 
   /** @param replacing whether what stands there now is replaced, whoever has written it */
-  async function store({ replacing = false } = {}) {
+  const store = inTurn(async ({ replacing = false } = {}) => {
+    if (!current || (!replacing && storing.disabled)) return;
     const part = form.part.value.trim();
     if (!part) {
       form.notes.part.textContent = t('plans.part_missing');
@@ -175,28 +178,30 @@ export function mount(main, route) {
       return;
     }
     // Under another number it is another plan.
-    const isOther = current.tag !== null && part !== current.part;
-    const plan = form.value;
+    const edited = current;
+    const isOther = edited.tag !== null && part !== edited.part;
+    const [plan, text] = [form.value, form.text];
     try {
-      const stored = await writePlan(part, plan, replacing ? undefined : isOther ? null : current.tag);
+      const stored = await writePlan(part, plan, replacing ? undefined : isOther ? null : edited.tag);
+      if (current !== edited) {
+        await refresh(); // another is open, or the list
+        return;
+      }
       current = { part, tag: stored };
       form.clear();
-      before = form.text;
+      before = text;
       go({ view: 'plans', path: part.split('/') }, { refine: true });
       show();
       sayStored(t('plans.stored', { part, count: plan.characteristics.length }), part);
+      // Enter that is pressed again goes nowhere; what is typed meanwhile goes on in its field.
+      if (!isDirty()) done.focus();
     } catch (problem) {
-      if (problem.status === 412) return sayChanged(part, isOther || current.tag === null);
-      if (problem.errors?.length) note.textContent = form.mark(problem).join(' ') || t('plans.wrong');
+      if (problem.status === 412) {
+        sayStoredFirst(note, part, isOther || edited.tag === null, { open: () => attempt(() => open(part)), replace: () => attempt(() => store({ replacing: true })) });
+      } else if (problem.errors?.length) note.textContent = form.mark(problem).join(' ') || t('plans.wrong');
       else throw problem;
     }
-  }
-
-  /** Another has been there first: nothing is replaced before somebody has said so. */
-  function sayChanged(part, isNew) {
-    refill(note, t(isNew ? 'plans.exists' : 'plans.changed', { part }), ' ',
-      button(isNew ? 'plans.open_it' : 'plans.theirs', () => attempt(() => open(part))), ' ', button('plans.mine', () => attempt(() => store({ replacing: true }))));
-  }
+  }, () => form.text);
 
   async function remove(part, tag) {
     if (!await confirm(t('plans.delete_sure', { part }), t('plans.delete'))) return;

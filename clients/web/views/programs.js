@@ -2,6 +2,7 @@
 
 import { getJson, url } from '../api.js';
 import { confirm } from '../confirm.js';
+import { mayReplace } from '../documents.js';
 import { h } from '../dom.js';
 import { explain, t } from '../i18n.js';
 import { fileName, isProgram, listFiles, relative, removeFile, writeFile } from '../programs/disk.js';
@@ -28,7 +29,7 @@ export function mount(main, route) {
   const title = h('h2.title', name, state);
   const note = h('p.note', { role: 'status' });
   const storing = h('button.primary', { type: 'button', onclick: () => attempt(store) }, t('programs.store'));
-  const dropping = h('button', { type: 'button', onclick: () => attempt(drop) }, t('programs.drop'));
+  const dropping = h('button', { type: 'button', onclick: () => attempt(drop) }, t('document.drop'));
   const actions = h('p.actions', storing, dropping,
     h('button', { type: 'button', onclick: () => attempt(checkCurrent) }, t('programs.check')),
     h('button', { type: 'button', onclick: () => attempt(remove) }, t('programs.delete')));
@@ -67,7 +68,7 @@ export function mount(main, route) {
   }
 
   async function drop() {
-    if (!await confirm(t('programs.drop_sure', { name: fileName(current) }), t('programs.drop'))) return;
+    if (!await confirm(t('programs.drop_sure', { name: fileName(current) }), t('document.drop'))) return;
     const isNew = source.tag === null;
     ProgramText.forget(current);
     if (isNew) current = '';
@@ -141,7 +142,7 @@ export function mount(main, route) {
     return attempt(async () => {
       const there = new Set((await listFiles()).map(({ path }) => path.toLowerCase()));
       const replaced = chosen.map((file) => file.name).filter((name) => there.has([folder, name].filter(Boolean).join('/').toLowerCase()));
-      if (replaced.length && !await confirm(t('programs.replace_sure', { names: replaced.join(', ') }), t('programs.replace'))) return;
+      if (replaced.length && !await mayReplace(replaced)) return;
       for (const file of chosen) {
         const path = [folder, file.name].filter(Boolean).join('/');
         await writeFile(path, await file.arrayBuffer());

@@ -5,6 +5,7 @@ import { before, describe, it } from 'node:test';
 
 import { uncertaintyOf } from '../../../clients/web/gauges/budgets.js';
 import { close, findings, hashOf, open, picture } from './support/browser.mjs';
+import { holdAll } from './support/hold.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 const BORE = { contributions: [{ name: 'ring', standard_uncertainty: 0.3, degrees_of_freedom: 50 }, { name: 'repeatability', standard_uncertainty: 0.4, degrees_of_freedom: 9 },
@@ -73,6 +74,43 @@ describe('an uncertainty budget', () => {
     await page.click('.budgets .primary');
     await page.waitForFunction(() => /is stored/.test(document.querySelector('.budgets [role="status"]').textContent));
     assert.equal((await daemon.json('/v1/uncertainties/bore-gauge')).contributions[2].limits_half_width, 0.3);
+    await close(page);
+  });
+
+  it('replaces no other and is not lost before somebody says so, also while it is being stored', async () => {
+    const before = await daemon.json('/v1/uncertainties/bore-gauge');
+    await daemon.send('PUT', '/v1/uncertainties/second', BORE);
+    const page = await open(browser, daemon, '#/gauges');
+    const name = (text) => page.waitForFunction((wanted) => document.querySelector('[name="budget-name"]').value === wanted, text);
+    const note = (pattern) => page.waitForFunction((text) => new RegExp(text).test(document.querySelector('.budgets .note').textContent), pattern);
+    await page.waitForSelector('.budgets option[value="second"]', { state: 'attached' });
+    await page.fill('.budgets tbody tr:nth-child(1) [name="name"]', 'mine');
+    await page.fill('.budgets tbody tr:nth-child(1) [name="standard_uncertainty"]', '0.7');
+    await page.fill('[name="budget-name"]', 'bore-gauge');
+    await page.click('.budgets .primary');
+    await note('bore-gauge already exists');
+    assert.deepEqual(await daemon.json('/v1/uncertainties/bore-gauge'), before);
+    await page.selectOption('[name="stored-budget"]', 'second');
+    await page.click('dialog >> text=Cancel');
+    assert.deepEqual([await page.inputValue('[name="stored-budget"]'), await page.inputValue('.budgets tbody [name="name"]')], ['', 'mine']);
+    await page.selectOption('[name="stored-budget"]', 'second');
+    await page.click('dialog .primary');
+    await name('second');
+    await page.click('.budgets tbody tr:nth-child(2) .quiet');
+    assert.equal(await page.evaluate(() => document.activeElement.value), 'temperature');
+    const go = await holdAll(page, '**/v1/uncertainties/second');
+    await page.dblclick('.budgets .primary');
+    await page.fill('.budgets tbody tr:nth-child(1) [name="name"]', 'typed meanwhile');
+    go();
+    await page.waitForFunction(() => /second is stored/.test(document.querySelector('.budgets [role="status"]').textContent));
+    assert.deepEqual([await page.inputValue('.budgets tbody [name="name"]'), await page.textContent('.budgets .note')], ['typed meanwhile', '']);
+    assert.equal((await daemon.json('/v1/uncertainties/second')).contributions.length, 2);
+    await daemon.send('PUT', '/v1/uncertainties/second', BORE);
+    await page.click('.budgets .primary');
+    await note('Somebody has changed second');
+    await page.click('.budgets .note >> text=Read the stored version');
+    await page.click('dialog .primary');
+    await page.waitForFunction(() => document.querySelectorAll('.budgets tbody tr').length === 3);
     await close(page);
   });
 

@@ -5,6 +5,7 @@ import { describe, it } from 'node:test';
 
 import { findings, hashOf, picture } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
+import { holdAll } from './support/hold.mjs';
 import { openAt, page, visit } from './support/plans.mjs';
 import { scan } from './support/scanner.mjs';
 import { daemon } from './support/stage.mjs';
@@ -89,9 +90,9 @@ describe('catalogues of causes and actions', () => {
     assert.equal(hashOf(page), '#/plans/C-2');
     await page.getByRole('button', { name: 'All plans' }).click();
     await storeIt();
-    await tell('Somebody has changed catalogue c-two');
+    await tell('Somebody has changed c-two');
     assert.deepEqual((await catalogue('c-two')).causes, ['B']);
-    await page.getByRole('button', { name: 'Read the stored catalogue' }).click();
+    await page.getByRole('button', { name: 'Read the stored version' }).click();
     await page.waitForFunction(() => document.querySelector('.catalogues [aria-label="Causes"] input')?.value === 'B');
     await entry('Causes', 1).locator('input').fill('D');
     await storeIt();
@@ -100,6 +101,20 @@ describe('catalogues of causes and actions', () => {
     await page.getByRole('button', { name: 'Delete', exact: true }).last().click();
     await page.click('dialog .primary');
     await tell('Catalogue c-two is deleted.');
+  });
+
+  it('are stored once however often it is asked for, and go on with what is typed meanwhile', async () => {
+    await daemon.send('PUT', '/v1/catalogues/c-slow', { causes: ['A'], measures: [] });
+    await visit('#/plans?catalogue=c-slow');
+    await page.waitForSelector('.catalogues form:not([hidden]) [aria-label="Causes"] input');
+    await entry('Causes', 1).locator('input').fill('B');
+    const go = await holdAll(page, '**/v1/catalogues/c-slow');
+    await page.dblclick('.catalogues button[type="submit"]');
+    await entry('Causes', 1).locator('input').fill('C');
+    go();
+    await tell('Catalogue c-slow is stored');
+    assert.deepEqual([await entries('Causes'), await page.textContent('.catalogues .note'), await page.textContent('.catalogues form .aside')], [['C'], '', 'not stored yet']);
+    await daemon.send('DELETE', '/v1/catalogues/c-slow');
   });
 
   it('are read by everybody and written with a key of their role', async () => {

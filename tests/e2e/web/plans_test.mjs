@@ -128,17 +128,36 @@ describe('the form of a plan', () => {
     await field(1, 'gauge').fill('G-1');
     await daemon.send('PUT', '/v1/plans/TWO', { characteristics: [{ name: 'a', designation: '25 H8' }] });
     await storePlan();
-    await page.waitForFunction(() => /Somebody has changed plan TWO/.test(document.querySelector('.editor > .note').textContent));
+    await page.waitForFunction(() => /Somebody has changed TWO/.test(document.querySelector('.editor > .note').textContent));
     assert.equal((await plan('TWO')).characteristics[0].designation, '25 H8');
     await picture(page, 'plans-changed');
-    await page.click('.editor > .note >> text=Store my plan anyway');
+    await page.click('.editor > .note >> text=Store my version anyway');
     await stored('TWO');
     assert.deepEqual((await plan('TWO')).characteristics, [{ name: 'a', designation: '25 H7', gauge: 'G-1' }]);
     // A number that is given away already is another plan.
     await page.fill('[name="part"]', 'K');
     await storePlan();
-    await page.waitForFunction(() => /Plan K already exists/.test(document.querySelector('.editor > .note').textContent));
+    await page.waitForFunction(() => /K already exists/.test(document.querySelector('.editor > .note').textContent));
     assert.equal((await plan('K')).characteristics.length, 2);
+  });
+
+  it('is stored once however often it is asked for, and goes on with what is typed meanwhile', async () => {
+    await daemon.send('PUT', '/v1/plans/SLOW', { characteristics: [{ name: 'a', designation: '25 H7' }] });
+    await edit('SLOW');
+    await page.fill('[name="name"]', 'Slow');
+    const go = await holdAll(page, '**/v1/plans/SLOW');
+    for (let i = 0; i < 2; ++i) await page.press('[name="name"]', 'Enter');
+    await page.fill('[name="name"]', 'Slower');
+    go();
+    await stored('SLOW');
+    assert.deepEqual([await page.textContent('.editor > .note'), await page.textContent('.editor .aside')], ['', 'not stored yet']);
+    assert.equal(await page.evaluate(() => document.activeElement.name), 'name');
+    for (let i = 0; i < 2; ++i) {
+      await page.keyboard.press('Enter');
+      await page.waitForFunction(() => document.querySelector('.editor .aside').textContent === '');
+    }
+    assert.deepEqual([(await plan('SLOW')).name, hashOf(page)], ['Slower', '#/plans/SLOW']);
+    await daemon.send('DELETE', '/v1/plans/SLOW');
   });
 
   it('is there again after another view and a reload; what is not stored is not lost', async () => {
@@ -205,5 +224,8 @@ describe('the form of a plan', () => {
     await storePlan();
     await stored('K');
     assert.equal((await plan('K')).characteristics[0].picture, 'pictures/bore.png');
+    await row(1).locator('input[type="file"]').setInputFiles({ name: 'bore.png', mimeType: 'image/png', buffer: Buffer.from('another') });
+    await page.click('dialog >> text=Cancel'); // of another plan, it may be
+    assert.deepEqual(Buffer.from(await (await fetch(`${daemon.url}/v1/files/pictures/bore.png`)).arrayBuffer()), png);
   });
 });

@@ -49,6 +49,38 @@ describe('a gauge', () => {
     await close(page);
   });
 
+  it('has a study whose verdict is of the readings beside it, and which replaces none unasked', async () => {
+    const study = { gauge: 'G-07', at: '2026-01-01', kind: 'type1', input: { reference: 25, tolerance: 0.021, values: [25, 25.001, 25.0005, 25.0002, 25.0001, 25, 25, 25.001, 25.0003, 25] } };
+    await daemon.send('PUT', '/v1/studies/Q3', study);
+    const page = await open(browser, daemon, '#/gauges');
+    await page.selectOption('.study [name="kind"]', 'type1');
+    for (const [name, value] of [['tolerance', '0.021'], ['reference', '25'], ['values', '25.001 25.002 25.001 25.002 25.001 25.002 25.001 25.002 25.001 25.002']]) await page.fill(`.study [name="${name}"]`, value);
+    const compute = async () => {
+      await page.click('.study .primary');
+      await page.waitForSelector('.study-verdict');
+    };
+    await compute();
+    await page.fill('.study [name="reference"]', '25.001');
+    assert.equal(await page.$('.study-verdict'), null);
+    await page.selectOption('.study [name="kind"]', 'grr');
+    await page.fill('[name="parts"]', '2');
+    await page.fill('[name="operators"]', 'Kim, Jo');
+    await page.fill('[name="trials"]', '2');
+    for (const [i, value] of ['25.01', '25.02', '25.011', '25.021', '25.012', '25.022', '25.01', '25.02'].entries()) await page.fill(`.study-grid td >> nth=${i} >> input`, value);
+    await compute();
+    await page.fill('.study-grid td input >> nth=0', '25.013');
+    assert.equal(await page.$('.study-verdict'), null);
+    await page.fill('[name="study-name"]', 'Q3');
+    await page.fill('[name="study-gauge"]', 'G-07');
+    await page.click('.stored-studies [type="submit"]');
+    await page.waitForFunction(() => /Q3 already exists/.test(document.querySelector('.stored-studies .note').textContent));
+    assert.equal((await daemon.json('/v1/studies/Q3')).kind, 'type1');
+    await page.click('.stored-studies .note >> text=Store my version anyway');
+    await page.waitForFunction(() => /Q3 is stored/.test(document.querySelector('.stored-studies [role="status"]').textContent));
+    assert.equal((await daemon.json('/v1/studies/Q3')).kind, 'grr');
+    await close(page);
+  });
+
   it('is studied with what the station has recorded, and a reload keeps the readings', async () => {
     const page = await open(browser, daemon, '#/gauges', { viewport: { width: 1366, height: 768 } });
     await page.waitForFunction(() => document.querySelector('.study [name="characteristic"]').options.length > 1);
