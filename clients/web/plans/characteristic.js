@@ -1,10 +1,12 @@
 /** A characteristic of a plan as a row of a form: name, size, what is measured, gauge; the rest when it is opened. */
 
-import { getJson, keyInUse, request, url } from '../api.js';
+import { getJson, keyInUse, url } from '../api.js';
+import { writeOrAsk } from '../documents.js';
 import { freshId, h, refill } from '../dom.js';
 import { Decimal, parseMeasured } from '../exact.js';
 import { ownLimits } from '../gauge/plan.js';
 import { explain, has, t } from '../i18n.js';
+import { writeFile } from '../programs/disk.js';
 import { limitsText } from '../verdict.js';
 import { KINDS, kindOf, LIMITS, sizeMembers, sizeTyped } from './sizes.js';
 import { iconButton } from './sorting.js';
@@ -104,13 +106,15 @@ export class Characteristic {
     const [file] = input.files;
     const path = `pictures/${file.name}`;
     try {
-      await request('PUT', url(['files', ...path.split('/')]), { body: await file.arrayBuffer() });
+      const bytes = await file.arrayBuffer();
+      if (!await writeOrAsk(file.name, (conditions) => writeFile(path, bytes, conditions))) return;
       this.fields.picture.value = path;
       this.fields.picture.dispatchEvent(new Event('input'));
     } catch (problem) {
       this.notes.picture.textContent = explain(problem);
+    } finally {
+      input.value = '';
     }
-    input.value = '';
   }
 
   #sizeNow() {

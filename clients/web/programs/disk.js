@@ -53,8 +53,8 @@ export const listRuns = async (path, limit) => (await getJson(url(['runs'], { pr
 
 export const listSetups = async () => (await getJson(url(['setups']))).setups.map((setup) => setup.name);
 export const readSetup = async (name) => (await get(url(['setups', name]))).text();
-export const writeSetup = (name, text) =>
-  request('PUT', url(['setups', name]), { body: text, headers: { 'Content-Type': 'application/json' } });
+export const writeSetup = (name, text, conditions = {}) =>
+  request('PUT', url(['setups', name]), { body: text, headers: { 'Content-Type': 'application/json', ...conditions } });
 
 /** Lines of `Q1 = 25` and `QS1 = "H7"` as the parameters of a run. @throws Error naming the line */
 export function readParameters(text, complain) {

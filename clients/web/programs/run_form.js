@@ -1,6 +1,7 @@
 /** A run: the setup it runs on, the parameters set before it, and how it goes. */
 
 import { request, url } from '../api.js';
+import { writeOrAsk } from '../documents.js';
 import { field, h, refill } from '../dom.js';
 import { readEvents } from '../events.js';
 import { toJson } from '../exact.js';
@@ -165,7 +166,8 @@ export class RunForm {
   #storeSetup() {
     return this.#try(async () => {
       const name = this.setupName.value.trim();
-      await writeSetup(name, this.setupText.value);
+      const text = this.setupText.value;
+      if (!await writeOrAsk(name, (conditions) => writeSetup(name, text, conditions))) return;
       await this.show(this.program, name);
       this.note.textContent = t('programs.setup_stored', { name });
     });

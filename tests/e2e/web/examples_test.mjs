@@ -34,10 +34,15 @@ describe('the examples', () => {
     const file = `${daemon.url}/v1/files/nc_prog/8025/8025.h`;
     const changed = (await (await fetch(file)).text()).replace('Q4 = +8', 'Q4 = +4');
     await fetch(file, { method: 'PUT', body: changed });
+    const setup = '/v1/setups/8025-cutter';
+    const own = await daemon.json(setup);
+    own.machine.tools[0].length_mm = 81;
+    await daemon.send('PUT', setup, own);
     page = await open(browser, daemon, '#/programs');
     await page.click('.empty button:has-text("8025")');
     await page.waitForSelector('.report .headline:has-text("Completed")');
     assert.equal(await (await fetch(file)).text(), changed);
+    assert.deepEqual(await daemon.json(setup), own);
     page.errors.length = 0;
   });
 });
@@ -70,6 +75,9 @@ describe('the workpiece of a setup', () => {
     await page.fill('.run details details textarea', '{"workpiece":{"features":[{"type":"plane"}]}}');
     await page.waitForFunction(() => document.querySelectorAll('.feature').length === 1);
     assert.equal(await page.textContent('.feature legend'), '1. Plane');
+    await page.click('.run button:has-text("Store the setup")');
+    await page.click('dialog >> text=Cancel');
+    assert.equal((await daemon.json('/v1/setups/form')).workpiece.features.length, 2);
     page.errors.length = 0;
   });
 });
