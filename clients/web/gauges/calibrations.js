@@ -2,9 +2,11 @@
 
 import { getJson, request, url } from '../api.js';
 import { connection } from '../connection.js';
+import { findDocument, writeDocument } from '../documents.js';
 import { field, h, refill } from '../dom.js';
 import { dayShown, gaugeInUse } from '../gauge/in_use.js';
 import { dayText, explain, number, t } from '../i18n.js';
+import { Latest } from '../latest.js';
 
 const CALIBRATION = ['from', 'due', 'certificate', 'laboratory', 'status', 'uncertainty', 'comment'];
 const COLUMNS = ['from', 'due', 'status', 'certificate', 'laboratory', 'uncertainty', 'comment'];
@@ -17,6 +19,7 @@ export class Calibrations {
   /** @param gauge whose calibrations are shown first; @param onGauge is told of another; @param leaving ends it */
   constructor({ gauge, onGauge, leaving }) {
     Object.assign(this, { gauge, onGauge, leaving });
+    this.reading = new Latest(leaving);
     this.budgets = h('datalist', { id: 'budgets' });
     this.rows = h('tbody');
     this.empty = h('p.empty', { hidden: true }, t('gauges.none'));
@@ -35,57 +38,79 @@ export class Calibrations {
     getJson(url(['uncertainties']), { signal: leaving, asks: false }).then(({ uncertainties }) => refill(this.budgets, uncertainties.map(({ name }) => h('option', { value: name }))), () => {});
   }
 
+  /** @param event of a form, whose second click sends nothing again; null: of none */
   async #send(event, act) {
     event?.preventDefault();
+    if (event && this.isSending) return;
+    this.isSending ||= Boolean(event);
     this.note.textContent = '';
     try {
       await act();
     } catch (problem) {
       if (!this.leaving.aborted) this.note.textContent = explain(problem);
+    } finally {
+      if (event) this.isSending = false;
     }
   }
 
-  async read() {
-    const { gauges } = await getJson(url(['gauges-in-use']), { signal: this.leaving });
-    const all = await Promise.all(gauges.map(({ name }) => gaugeInUse(name, this.leaving)));
+  read() {
+    return this.reading.run((signal) => this.#read(signal));
+  }
+
+  async #read(signal) {
+    const { gauges } = await getJson(url(['gauges-in-use']), { signal });
+    const all = await Promise.all(gauges.map(({ name }) => gaugeInUse(name, signal)));
+    if (signal.aborted) return;
     this.empty.hidden = gauges.length > 0;
     this.table.hidden = !gauges.length;
     refill(this.rows, all.filter(Boolean).map((one) => h('tr', h('th', { scope: 'row' },
       h('button.quiet', { type: 'button', 'aria-current': one.name === this.gauge && 'true', onclick: () => this.#choose(one.name) }, one.name)),
     h('td', one.blocked ? '–' : one.day), h('td', { class: one.overdue && 'overdue' }, t(`calibration.${one.blocked ? 'blocked' : one.overdue ? 'overdue' : 'in_use'}`)),
     h('td', one.uncertainty_um ? `u = ${number(one.uncertainty_um)} µm` : '–'))));
-    if (this.gauge) await this.#open();
+    if (this.gauge) await this.#open(this.gauge, signal);
     else this.ofOne.replaceChildren();
   }
 
+  /** The form of another gauge takes nothing that was typed for this one. */
   #choose(name) {
+    if (name !== this.gauge) {
+      this.ofOne.replaceChildren();
+      this.#clear();
+    }
     this.gauge = name;
     this.onGauge(name);
     this.#send(null, () => this.read());
   }
 
-  async #open() {
-    const { gauge } = this;
-    const { calibrations } = await getJson(url(['gauges-in-use', gauge, 'calibrations']), { signal: this.leaving });
+  #clear() {
+    for (const [name, input] of Object.entries(this.inputs)) input.value = name === 'status' ? STATES[0] : '';
+  }
+
+  async #open(gauge, signal) {
+    const { calibrations } = await getJson(url(['gauges-in-use', gauge, 'calibrations']), { signal });
+    if (signal.aborted) return;
     const cell = { from: dayShown, due: dayShown, status: (state) => t(`calibration.${state}`) };
     this.inputs.from.value ||= dayText(connection.now());
     refill(this.ofOne, h('h2', t('calibration.title', { gauge })), calibrations.length ? h('div.scroll.listed', { tabindex: 0, role: 'region', 'aria-label': t('calibration.title', { gauge }) },
       h('table', h('thead', h('tr', COLUMNS.map((name) => h('th', { scope: 'col' }, t(`calibration.${name}`))))), h('tbody', [...calibrations].reverse().map((one) => h('tr', COLUMNS.map((name) =>
         h('td', { class: name === 'status' && one.status === 'blocked' && 'overdue' }, one[name] ? (cell[name] ?? String)(one[name]) : '–'))))))) : h('p.aside', t('calibration.none')),
-    h('form.sheet', { novalidate: true, onsubmit: (event) => this.#send(event, () => this.#record()) },
+    h('form.sheet', { novalidate: true, onsubmit: (event) => this.#send(event, () => this.#record(gauge)) },
       h('div.study-fields', CALIBRATION.map((name) => field(t(`calibration.${name}`), this.inputs[name]))), h('p.actions', h('button.primary', { type: 'submit' }, t('calibration.record')))));
   }
 
-  async #record() {
-    await request('POST', url(['gauges-in-use', this.gauge, 'calibrations']), { body: valuesOf(this.inputs), signal: this.leaving });
-    for (const name of ['due', 'certificate', 'comment']) this.inputs[name].value = '';
+  async #record(gauge) {
+    await request('POST', url(['gauges-in-use', gauge, 'calibrations']), { body: valuesOf(this.inputs), signal: this.leaving });
+    if (this.gauge === gauge) this.#clear();
     await this.read();
-    this.note.textContent = t('calibration.recorded', { gauge: this.gauge });
+    this.note.textContent = t('calibration.recorded', { gauge });
   }
 
+  /** Of a gauge that is there, what is not typed stays as it is. */
   async #storeGauge() {
-    const { name = '', ...body } = valuesOf(this.own);
-    await request('PUT', url(['gauges-in-use', name || ' ']), { body, signal: this.leaving });
+    const { name = '', ...typed } = valuesOf(this.own);
+    const path = ['gauges-in-use', name || ' '];
+    const { body, tag } = await findDocument(path, this.leaving);
+    await writeDocument(path, { ...body, ...typed }, tag);
     this.#choose(name);
     for (const input of Object.values(this.own)) input.value = '';
   }

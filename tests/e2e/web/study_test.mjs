@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { before, describe, it } from 'node:test';
 
 import { browserName, close, drawn, findings, hashOf, hasZones, open, picture } from './support/browser.mjs';
+import { holdAll } from './support/hold.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 /** Ten parts, three operators, three trials: parts 2 µm apart, an operator half a micrometre off, trials 0.3 µm apart. */
@@ -46,6 +47,37 @@ describe('a gauge', () => {
     assert.equal((await daemon.json('/v1/gauges-in-use/G-08')).calibration_due, '2098-01-31');
     assert.deepEqual(await findings(page), []);
     await picture(page, 'gauges');
+    await close(page);
+  });
+
+  it('gets the calibration of its own form, once, and keeps what is not typed anew', async () => {
+    for (const name of ['C-1', 'C-2']) await daemon.send('PUT', `/v1/gauges-in-use/${name}`, { calibration_due: '2099-03-31', uncertainty: 'bore-gauge' });
+    const page = await open(browser, daemon, '#/gauges/C-2');
+    const recorded = () => page.waitForFunction(() => /recorded/.test(document.querySelector('.gauges .note').textContent));
+    const typed = () => Promise.all(['due', 'certificate', 'status'].map((name) => page.inputValue(`.of-gauge [name="${name}"]`)));
+    await page.waitForSelector('.of-gauge form');
+    await page.fill('.of-gauge [name="due"]', '2099-05-31');
+    await page.fill('.of-gauge [name="certificate"]', 'K-OF-2');
+    await page.selectOption('.of-gauge [name="status"]', 'blocked');
+    const go = await holdAll(page, /gauges-in-use$/);
+    await page.click('.listed .quiet >> text=C-1');
+    assert.equal(await page.$('.of-gauge form'), null);
+    go();
+    await page.waitForFunction(() => /C-1/.test(document.querySelector('.of-gauge h2')?.textContent));
+    assert.deepEqual(await typed(), ['', '', 'in_use']);
+    await page.fill('.of-gauge [name="due"]', '2099-06-30');
+    await page.selectOption('.of-gauge [name="status"]', 'blocked');
+    await page.dblclick('.of-gauge .primary');
+    await recorded();
+    assert.deepEqual(await typed(), ['', '', 'in_use']);
+    const stored = async (name) => (await daemon.json(`/v1/gauges-in-use/${name}/calibrations`)).calibrations.map(({ due, status }) => [due, status]);
+    assert.deepEqual([await stored('C-1'), await stored('C-2')], [[['2099-06-30', 'blocked']], []]);
+    await page.click('.add-gauge summary');
+    await page.fill('[name="gauge"]', 'C-2');
+    await page.fill('[name="calibration_due"]', '2098-01-31');
+    await page.click('.add-gauge .primary');
+    await page.waitForFunction(() => /C-2/.test(document.querySelector('.of-gauge h2')?.textContent));
+    assert.deepEqual(await daemon.json('/v1/gauges-in-use/C-2'), { uncertainty: 'bore-gauge', calibration_due: '2098-01-31' });
     await close(page);
   });
 
