@@ -1,6 +1,7 @@
 /** A hole and a shaft: zones, clearances, the classes to choose from. */
 
 import { getJson, url } from '../api.js';
+import { Asked } from '../asked.js';
 import { isBearing, parseFit } from '../designation.js';
 import { copyText, field, h, refill } from '../dom.js';
 import { followTables } from '../events.js';
@@ -10,7 +11,7 @@ import { clearanceBar } from '../fit/clearance_bar.js';
 import { drawingText, Finder } from '../fit/finder.js';
 import { preferredFits } from '../fit/preferred.js';
 import { zoneFigure } from '../fit/zone_figure.js';
-import { explain, number, signed, t } from '../i18n.js';
+import { number, signed, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { go } from '../route.js';
 import { classNames } from '../tables/catalogue.js';
@@ -100,15 +101,15 @@ export function mount(main, route) {
   }
 
   /** What the tables say now, which may have changed. */
-  function ask() {
-    if (!state.size || !isRead) return;
-    latest.run(async (signal) => {
+  const asked = new Asked(() => {
+    if (!state.size || !isRead) return undefined;
+    return Promise.all([showMaps(), latest.run(async (signal) => {
       const fit = await getJson(url(['fits', `${state.size}${classOf('hole')}`, classOf('shaft')]), { signal });
       if (note.getAttribute('role') === 'alert') note.textContent = '';
       await draw(fit, signal);
-    }).catch((problem) => nothing(explain(problem)));
-    for (const feature of FEATURES) classMaps[feature]?.show(nmFromMm(state.size), state[feature]);
-  }
+    })]);
+  }, { say: (text) => text && nothing(text), leaving: leaving.signal });
+  const ask = () => asked.run();
 
   async function draw(fit, signal) {
     const sizes = {};
@@ -140,17 +141,19 @@ export function mount(main, route) {
     note.textContent = t('fit.copied', { text });
   }
 
-  async function drawMaps() {
+  const showMaps = () => Promise.all(FEATURES.map((feature) => classMaps[feature]?.show(nmFromMm(state.size), state[feature])));
+
+  const mapping = new Asked(async () => {
     const names = await classNames();
     classMaps = Object.fromEntries(FEATURES.map((feature) => [feature, new ClassMap(feature, names[feature], (name) => pick({ [feature]: name }))]));
     maps.replaceChildren(...FEATURES.map((feature) => classMaps[feature].element));
-    if (state.size) for (const feature of FEATURES) classMaps[feature].show(nmFromMm(state.size), state[feature]);
-  }
+    if (state.size) await showMaps();
+  }, { say: (text) => { note.textContent ||= text; }, leaving: leaving.signal });
 
   const resized = new ResizeObserver(() => drawn());
   resized.observe(figure);
   refresh();
-  drawMaps().catch((problem) => { note.textContent = explain(problem); });
+  mapping.run();
   followTables(leaving.signal, ask);
   return () => {
     leaving.abort();

@@ -1,10 +1,11 @@
 /** Every characteristic of a part number or a machine, the worst first, as the values come in: a list, parts by characteristic, or small charts. */
 
 import { getJson, url } from '../api.js';
+import { Asked } from '../asked.js';
 import { field, h, refill } from '../dom.js';
 import { follow } from '../events.js';
 import { FilterBar } from '../filter_bar.js';
-import { explain, number, t } from '../i18n.js';
+import { number, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { HeatMap } from '../overview/heat_map.js';
 import { bySeverity, isDoubtful, LAST, standingOf } from '../overview/standing.js';
@@ -70,23 +71,18 @@ export function mount(main, route) {
     draw();
   }
 
-  const load = () => { reading = read(); return reading; };
-
-  async function read() {
+  const asked = new Asked(async () => {
+    if (!plan.options.length) await offer();
     remembered();
     table.toggleAttribute('data-settled', false);
-    try {
-      await latest.run(async (signal) => {
-        const names = await namesOf(signal);
-        const found = await standingsOf(names, signal);
-        standings = new Map(names.map((name, i) => [name, found[i]]));
-        draw();
-      });
-      note.textContent = '';
-    } catch (problem) {
-      note.textContent = explain(problem);
-    }
-  }
+    await latest.run(async (signal) => {
+      const names = await namesOf(signal);
+      const found = await standingsOf(names, signal);
+      standings = new Map(names.map((name, i) => [name, found[i]]));
+      draw();
+    });
+  }, { again: () => load(), say: (text) => { note.textContent = text; }, leaving: leaving.signal });
+  const load = () => { reading = asked.run(); return reading; };
 
   const standingsOf = (names, signal) => Promise.all(names.map((name) => standingOf({ ...bar.query, characteristic: name }, signal)));
 
@@ -127,12 +123,11 @@ export function mount(main, route) {
       names.forEach((name, i) => standings.set(name, found[i]));
       draw();
     } catch (problem) {
-      if (!leaving.signal.aborted) note.textContent = explain(problem);
+      asked.fail(problem);
     }
   }
 
-  offer().then(load).then(() => follow(leaving.signal, arrived))
-    .catch((problem) => { if (!leaving.signal.aborted) note.textContent = explain(problem); });
+  load().then(() => follow(leaving.signal, arrived));
   return () => {
     leaving.abort();
     clearTimeout(timer);

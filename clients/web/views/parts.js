@@ -1,12 +1,13 @@
 /** The parts: what was measured at which, found by part, order or whatever else a record says; the newest first. */
 
 import { getJson, url } from '../api.js';
+import { Asked } from '../asked.js';
 import { designationText } from '../designation.js';
 import { field, h } from '../dom.js';
 import { downloadLink } from '../download.js';
 import { follow } from '../events.js';
 import { FilterBar, searched } from '../filter_bar.js';
-import { date, dateTime, explain, signed, t, time } from '../i18n.js';
+import { date, dateTime, signed, t, time } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { untilLifted } from '../press.js';
 import { fragment, go } from '../route.js';
@@ -41,7 +42,7 @@ export function mount(main, route) {
   const list = new LongList(table, t('view.parts'), {
     read, rowOf, count, headOf: (run) => runRow(run, leaving.signal), leaving: leaving.signal,
     onPlace: (rank) => { if (location.hash === address) toAddress(rank, true); },
-    onProblem: (problem) => { said.textContent = explain(problem); },
+    onProblem: (problem) => asked.fail(problem),
   });
   const verdicts = new PartVerdicts(list.scroller, leaving.signal);
   const ofPart = h('div.of-one-part', { role: 'status' });
@@ -76,7 +77,8 @@ export function mount(main, route) {
     address = location.hash;
   }
 
-  async function search(rank, isAgain) {
+  const say = (text = '') => { said.textContent = text || (list.length === 0 ? t('parts.none') : ''); };
+  const asked = new Asked(async (rank, isAgain) => {
     toAddress(rank);
     for (const [format, link] of Object.entries(exported)) link.href = url(['measurements'], { ...filter(), format, time_zone: format === 'xlsx' ? ZONE : '' });
     const { part_id, order } = filter();
@@ -86,14 +88,15 @@ export function mount(main, route) {
     verdicts.forget();
     showPart(part_id);
     await list.open(rank, isAgain);
-    if (list.length === 0) said.textContent = t('parts.none');
-  }
+    if (list.length === 0) say();
+  }, { again: () => search(at, true), say, leaving: leaving.signal });
+  const search = (rank, isAgain) => asked.run(rank, isAgain);
 
   /** Of one part the sheet of its verdict. */
   function showPart(part) {
     if (part !== ofPart.dataset.part) ofPart.replaceChildren();
     ofPart.dataset.part = part;
-    sheet.run(async (signal) => (part ? partSheet(part, signal) : null)).then((found) => found !== undefined && ofPart.replaceChildren(...[found].filter(Boolean)), (problem) => { said.textContent = explain(problem); });
+    sheet.run(async (signal) => (part ? partSheet(part, signal) : null)).then((found) => found !== undefined && ofPart.replaceChildren(...[found].filter(Boolean)), (problem) => asked.fail(problem));
   }
 
   const listed = async (asked, signal) => (await getJson(url(['measurements'], { ...filter(), ...asked }), { signal })).measurements;
@@ -168,7 +171,7 @@ export function mount(main, route) {
     } else {
       showPart(filter().part_id);
       await list.renew();
-      said.textContent = list.length === 0 ? t('parts.none') : '';
+      if (!asked.failed) say();
     }
   }
 

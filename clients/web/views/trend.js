@@ -1,11 +1,12 @@
 /** The control chart of the newest values as they come in: is it stable, is it capable. */
 
 import { getJson, url } from '../api.js';
+import { Asked } from '../asked.js';
 import { designationText } from '../designation.js';
 import { field, h, refill } from '../dom.js';
 import { follow } from '../events.js';
 import { FilterBar } from '../filter_bar.js';
-import { explain, t } from '../i18n.js';
+import { t } from '../i18n.js';
 import { Latest, pause } from '../latest.js';
 import { untilLifted } from '../press.js';
 import { go } from '../route.js';
@@ -88,22 +89,22 @@ export function mount(main, route) {
     characteristic.append(option(name, name, false));
   }
 
-  async function load() {
-    try {
-      if (!await values.load()) return;
-      note.textContent = '';
-      chart.picked = null;
-      await compute();
-    } catch (problem) {
-      note.textContent = explain(problem);
-    }
-  }
+  const say = (text) => { note.textContent = text; };
+  const offering = new Asked(offer, { say, leaving: leaving.signal });
+  const loading = new Asked(async () => {
+    if (!await values.load()) return;
+    chart.picked = null;
+    await compute();
+  }, { say, leaving: leaving.signal });
+  const load = () => loading.run();
+  const figuring = new Asked(figure, { say, leaving: leaving.signal });
+  const compute = () => figuring.run();
 
   const chosenPhases = () => phases.filter((input) => input.checked).map(({ value }) => value);
   const chosenRules = () => rules.filter((input) => input.checked).map((input) => Number(input.value));
 
   /** Asks the service for the figures of what is shown, then draws both together. */
-  async function compute() {
+  async function figure() {
     const points = values.shown.map(pointOf);
     const counted = points.filter(isCounted);
     const found = subgroupsOf(counted);
@@ -116,28 +117,24 @@ export function mount(main, route) {
     const { from } = phased.at(-1);
     const newest = drawn.slice(from).flatMap((point) => point.members ?? (isCounted(point) ? point : []));
     const charted = { kind: groups ? kind.value : 'i_mr', rules: chosenRules(), frozen };
-    try {
-      const answers = await computing.run(async (signal) => {
-        if (!newest.length) return [null, null];
-        // Each step is a turn of its own: 100,000 values are long work.
-        await pause();
-        eventsOf(drawn);
-        await pause();
-        const charts = chartOfPhases(drawn, phased, charted, signal);
-        await pause();
-        const found = await Promise.all([charts, capability(newest, groups?.slice(from) ?? null, signal)]);
-        await untilLifted();
-        return found;
-      });
-      if (!answers) return;
+    const answers = await computing.run(async (signal) => {
+      if (!newest.length) return [null, null];
+      // Each step is a turn of its own: 100,000 values are long work.
       await pause();
-      figures = { chart: answers[0], indices: answers[1] };
-      propose(counted);
-      left = groups ? found.left : 0;
-      await draw(points, drawn, counted, phased.length > 1 ? { from, values: newest } : null);
-    } catch (problem) {
-      note.textContent = explain(problem);
-    }
+      eventsOf(drawn);
+      await pause();
+      const charts = chartOfPhases(drawn, phased, charted, signal);
+      await pause();
+      const found = await Promise.all([charts, capability(newest, groups?.slice(from) ?? null, signal)]);
+      await untilLifted();
+      return found;
+    });
+    if (!answers) return;
+    await pause();
+    figures = { chart: answers[0], indices: answers[1] };
+    propose(counted);
+    left = groups ? found.left : 0;
+    await draw(points, drawn, counted, phased.length > 1 ? { from, values: newest } : null);
   }
 
   /** What the setter types next: of one characteristic on one machine, with limits that are the same for all values. */
@@ -216,7 +213,7 @@ export function mount(main, route) {
       told = null;
       computeSoon();
     } catch (problem) {
-      if (!leaving.signal.aborted) note.textContent = explain(problem);
+      loading.fail(problem);
     }
   }
 
@@ -238,7 +235,6 @@ export function mount(main, route) {
     if (event.type === 'note.added') return noted(JSON.parse(event.data));
     if (event.type !== 'measurement.recorded') return null;
     const record = JSON.parse(event.data);
-    note.textContent = '';
     offerOne(record.characteristic);
     if (values.take(record)) computeSoon();
     return null;
@@ -255,8 +251,7 @@ export function mount(main, route) {
   offerOne(options.characteristic);
   characteristic.value = values.characteristic;
   bar.offer(leaving.signal);
-  Promise.all([offer(), load()]).catch((problem) => { if (!leaving.signal.aborted) note.textContent = explain(problem); })
-    .then(() => follow(leaving.signal, arrived));
+  Promise.all([offering.run(), load()]).then(() => follow(leaving.signal, arrived));
   return () => {
     leaving.abort();
     clearTimeout(timer);

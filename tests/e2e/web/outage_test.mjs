@@ -58,6 +58,43 @@ describe('while the service is away', () => {
     await page.waitForFunction(() => document.querySelector('.unkept')?.textContent === '');
   });
 
+  it('the desk asks again for what it was asked meanwhile', async () => {
+    await daemon.send('POST', '/v1/measurements', ['M1', 'M2'].map((machine) => ({ designation: '25 H7', measured_mm: '25.01', characteristic: 'bore', part_id: `of ${machine}`, machine })));
+    const rows = (selector, count) => [(view) => document.querySelectorAll(view[0]).length === view[1], [selector, count]];
+    const machine = async (view) => {
+      await view.fill('[name="machine"]', 'M1');
+      await view.press('[name="machine"]', 'Enter');
+    };
+    const fit = async (view) => {
+      await view.fill('#fit', '30 H7/h6');
+      await view.press('#fit', 'Enter');
+    };
+    const views = [
+      ['trend?characteristic=bore', rows('.trend > .scroll tbody tr', 2), machine, rows('.trend > .scroll tbody tr', 1)],
+      ['overview', [() => /bore2/.test(document.querySelector('.overview tbody')?.textContent)], machine, [() => /bore1/.test(document.querySelector('.overview tbody')?.textContent)]],
+      ['parts', rows('.records tbody tr', 2), machine, rows('.records tbody tr', 1)],
+      ['fit/25H7/g6', rows('.fit .limits tr', 2), fit, [() => /h6/.test(document.querySelector('.fit .limits')?.textContent)]],
+    ];
+    page = await open(browser, daemon, '#/tables');
+    const tabs = [];
+    for (const [address, shown] of views) {
+      tabs.push(await openIn(page.context(), daemon, `#/${address}`));
+      await tabs.at(-1).waitForFunction(...shown);
+    }
+    await daemon.kill();
+    const noted = (wanted) => (document.querySelector('.desk .note').textContent !== '') === wanted;
+    for (const [i, [, , change]] of views.entries()) {
+      await change(tabs[i]);
+      await tabs[i].waitForFunction(noted, true);
+    }
+    await daemon.start();
+    for (const [i, [, , , shown]] of views.entries()) {
+      await tabs[i].waitForFunction(...shown);
+      await tabs[i].waitForFunction(noted, false);
+      assert.deepEqual(tabs[i].errors, []);
+    }
+  });
+
   it('a new build replaces what was kept', async () => {
     page = await open(browser, daemon, '#/gauge/25H7', { serviceWorkers: 'allow' });
     await kept('/app.js');
