@@ -254,6 +254,7 @@ export default {
   'programs.delete': 'Löschen',
   'programs.found': '{errors} Fehler, {warnings} Warnungen',
   'programs.in_order': 'Keine Befunde.',
+  'programs.not_checked': 'Nicht geprüft: {reason}',
   'programs.line': 'Zeile {line}',
   'programs.at_block': 'Satz {block}',
   'programs.called': '{name}, gerufen von {by}',

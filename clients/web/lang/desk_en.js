@@ -254,6 +254,7 @@ export default {
   'programs.delete': 'Delete',
   'programs.found': '{errors} errors, {warnings} warnings',
   'programs.in_order': 'No findings.',
+  'programs.not_checked': 'Not checked: {reason}',
   'programs.line': 'line {line}',
   'programs.at_block': 'block {block}',
   'programs.called': '{name}, called by {by}',

@@ -254,6 +254,7 @@ export default {
   'programs.delete': 'Elimina',
   'programs.found': '{errors} errori, {warnings} avvisi',
   'programs.in_order': 'Nessun rilievo.',
+  'programs.not_checked': 'Non verificato: {reason}',
   'programs.line': 'riga {line}',
   'programs.at_block': 'blocco {block}',
   'programs.called': '{name}, chiamato da {by}',

@@ -254,6 +254,7 @@ export default {
   'programs.delete': 'Verwijderen',
   'programs.found': '{errors} fouten, {warnings} waarschuwingen',
   'programs.in_order': 'Geen bevindingen.',
+  'programs.not_checked': 'Niet gecontroleerd: {reason}',
   'programs.line': 'regel {line}',
   'programs.at_block': 'blok {block}',
   'programs.called': '{name}, aangeroepen door {by}',

@@ -1,8 +1,9 @@
 /** The text of a file of the control: edited, checked as one types, stored when it is wanted. */
 
+import { Asked } from '../asked.js';
 import { h, refill } from '../dom.js';
 import { t } from '../i18n.js';
-import { Latest } from '../latest.js';
+import { inTurn, Latest } from '../latest.js';
 import { brokenBlocks, toggleBreak } from './breaks.js';
 import { CalledProgram } from './called_program.js';
 import { check, fileName, isProgram, readFile, relative, writeFile } from './disk.js';
@@ -22,7 +23,6 @@ addEventListener('beforeunload', (event) => { if (drafts.size) event.preventDefa
 export class ProgramText {
   #timer = 0;
   #opening;
-  #storing = Promise.resolve();
 
   /**
    * @param leaving the signal of the view that is left
@@ -32,6 +32,7 @@ export class ProgramText {
   constructor({ leaving, onLine, onState, onStore }) {
     this.onState = onState;
     this.checking = new Latest(leaving);
+    this.checked = new Asked(() => this.#checkAlone(), { say: (reason) => reason && refill(this.list, h('li', h('p.aside', t('programs.not_checked', { reason })))), leaving });
     this.editor = new Editor({ onLine, onStore, onChange: () => this.#edited(), onBreak: (block) => toggleBreak(this.path, this.path, block) });
     this.list = h('ol.findings');
     this.note = h('p.aside', { hidden: true });
@@ -95,9 +96,14 @@ export class ProgramText {
   async check() {
     const { path } = this;
     if (!path) return undefined;
-    const found = await this.checking.run((signal) => check(path, this.editor.text || '\n', signal));
-    if (found && this.path === path) this.show(found);
-    return found;
+    try {
+      const found = await this.checking.run((signal) => check(path, this.editor.text || '\n', signal));
+      if (found && this.path === path) this.show(found);
+      return found;
+    } catch (problem) {
+      if (this.path === path) this.show([]); // what was found is of another text
+      throw problem;
+    }
   }
 
   show(diagnostics) {
@@ -121,14 +127,8 @@ export class ProgramText {
     else this.called.show(program, line, this.path);
   }
 
-  /** One after the other: the second of a pair of keys finds nothing left to store. @errors precondition.failed where somebody else stored the file meanwhile */
-  store() {
-    const storing = this.#storing.then(() => this.#store());
-    this.#storing = storing.catch(() => {});
-    return storing;
-  }
-
-  async #store() {
+  /** One after the other. @errors precondition.failed where somebody else stored the file meanwhile */
+  store = inTurn(async () => {
     if (!this.dirty) return;
     const { path } = this;
     const text = this.editor.text.replaceAll('\n', this.lineBreak);
@@ -139,7 +139,7 @@ export class ProgramText {
     if (this.path !== path) return;
     Object.assign(this, { tag, stored: text });
     this.#remember();
-  }
+  }, () => `${this.path}\n${this.editor.text}`);
 
   /** Forgets what is not stored of a file. */
   static forget(path) {
@@ -158,10 +158,12 @@ export class ProgramText {
     this.onState();
   }
 
-  /** What is only convenient fails in silence; the button says why. */
   #checkSoon(pause) {
     clearTimeout(this.#timer);
-    if (this.editor.text.length > LONGEST_CHECKED) return;
-    this.#timer = setTimeout(() => this.check().catch(() => {}), pause);
+    this.#timer = setTimeout(() => this.checked.run(), pause);
+  }
+
+  #checkAlone() {
+    return this.editor.text.length > LONGEST_CHECKED ? undefined : this.check();
   }
 }

@@ -57,6 +57,7 @@ export function mount(main, route) {
   function showState() {
     state.textContent = source.dirty ? t('programs.not_stored') : '';
     storing.disabled = !source.dirty;
+    note.textContent = ''; // what was said was said of another text
     dropping.hidden = !source.dirty;
   }
 

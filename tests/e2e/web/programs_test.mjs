@@ -194,6 +194,26 @@ describe('the programs', () => {
     assert.match(await page.textContent('.moves output'), /block 2 · Rapid/i);
   });
 
+  it('are said to be in order only as they stand, and are checked again after an outage', async () => {
+    await daemon.send('PUT', '/v1/files/nc_prog/mend.h', 'BEGIN PGM MEND MM\nEND PGM MEND MM\n', 'text/plain');
+    page = await open(browser, daemon, '#/programs/nc_prog/mend.h');
+    await page.waitForSelector('.cm-line >> nth=1');
+    const note = (text) => page.waitForFunction((wanted) => document.querySelector('.program > .note').textContent === wanted, text);
+    await page.click('.program .actions button:has-text("Check")');
+    await note('No findings.');
+    await page.click('.cm-line >> nth=0');
+    await page.keyboard.press('End');
+    await page.keyboard.type('\nFOO');
+    await note('');
+    await page.waitForSelector('.cm-line.cm-error');
+    await page.route(/\/(v1|livez)/, (route) => route.abort());
+    await page.keyboard.type(' BAR');
+    await page.waitForFunction(() => /^Not checked: ./.test(document.querySelector('.findings').textContent));
+    assert.equal(await page.$('.cm-line.cm-error'), null);
+    await page.unroute(/\/(v1|livez)/);
+    await page.waitForSelector('.cm-line.cm-error >> text=FOO BAR');
+  });
+
   it('are run and stored once, and what is typed while another is opened stays its own', async () => {
     const texts = Object.fromEntries(['one', 'two'].map((name) => [name, `BEGIN PGM ${name.toUpperCase()} MM\nEND PGM ${name.toUpperCase()} MM\n`]));
     for (const [name, text] of Object.entries(texts)) await daemon.send('PUT', `/v1/files/nc_prog/${name}.h`, text, 'text/plain');
