@@ -26,6 +26,7 @@ const writes = ({ key, ctrlKey, altKey, metaKey }) => key.length === 1 && !ctrlK
 export class Entry {
   /**
    * @param job gives {nominal_nm, limits} or a reason why nothing can be gauged: {reason}
+   * @param subject gives all that goes into the next record besides the value, as one text
    * @param gauged gives the same, also where no value is taken now; @param isSize whether a field is that of the size
    * @param prefixes gives what stands before a scan of each field: {part_id: 'P:', …}; @param pattern gives that of the numbers of parts, '' where any is one
    * @param onValue takes {text, correcting, confirmed}: the exact decimal, the record it corrects, and whether somebody confirmed it though it is far outside
@@ -249,8 +250,12 @@ export class Entry {
     return this.#finish(() => this.onField('part_id', read.kind === 'field' ? read.text : typed, record));
   }
 
+  #job() {
+    return this.correcting ? { limits: this.correcting.record } : this.job();
+  }
+
   #judge(text) {
-    const job = this.correcting ? { limits: this.correcting.record } : this.job();
+    const job = this.#job();
     if (job.reason) return this.#refuse(job.reason);
     const nm = nmFromMm(text);
     if (nm <= 0 || nm > LARGEST_NM) return this.#refuse(t('entry.out_of_range', { typed: this.input.value.trim() }));
@@ -260,7 +265,9 @@ export class Entry {
 
   #accept(text, confirmed = false) {
     const { correcting } = this;
-    this.#finish(() => this.onValue({ text, correcting: correcting?.record, confirmed }));
+    const { reason } = this.#job(); // it may have come while a question stood there
+    if (reason) return this.#refuse(reason);
+    return this.#finish(() => this.onValue({ text, correcting: correcting?.record, confirmed }));
   }
 
   #finish(act) {
@@ -296,7 +303,7 @@ export class Entry {
   /** The first choice is the safe one: Enter takes it. @param dropped the value that is not kept then */
   #question(question, dropped, choices) {
     const given = choices.filter(Boolean);
-    this.asked = { dropped, safe: given[0].act };
+    this.asked = { dropped, safe: given[0].act, subject: this.subject() };
     this.unchanged = true;
     this.element.classList.add('asking');
     this.onAsk({ text: this.input.value.trim(), question, choices: given });
@@ -317,6 +324,15 @@ export class Entry {
     this.#withdraw();
     this.#reset();
     this.focus();
+  }
+
+  /** A question about what was gauged before ends. Its line stays, and Enter reads it anew. */
+  jobChanged() {
+    if (!this.asked || this.correcting || this.asked.subject === this.subject()) return;
+    this.asked = null;
+    this.onAsk(null);
+    this.element.classList.remove('asking');
+    this.#say(t('entry.resumed', { typed: this.input.value.trim() }));
   }
 
   /** A question that nobody answers keeps nothing. */

@@ -39,7 +39,10 @@ export class Job {
     this.fields = new Fields(options, { onChange: () => this.#changed(), named });
     this.rule = new Rule(options, { onChange: () => this.#changed(), onRule: () => this.#ruleChanged() });
     this.prefixes = new Prefixes();
-    this.envelope = new Envelope(onDone);
+    this.envelope = new Envelope(() => {
+      this.#changed();
+      onDone();
+    });
     this.side = h('select', { name: 'feature', onchange: () => this.#show(this.read, this.reason) },
       SIDES.map((side) => h('option', { value: side, selected: side === options.feature }, t(`job.side.${side}`))));
     this.sideField = field(t('job.side'), this.side);
@@ -134,6 +137,11 @@ export class Job {
   /** Everything but the designation, as the URL has it. */
   get options() {
     return { ...this.fields.texts, ...(isOpen(this.limits) && { feature: this.side.value }), ...this.rule.options };
+  }
+
+  /** All that goes into the next record besides the value, to be compared. */
+  get subject() {
+    return JSON.stringify([this.#gauged(), this.options, this.envelope.said, this.envelope.operator.value]);
   }
 
   /** What the next value is judged by: {text, nominal_nm, limits}, or {reason} why it can't be. */

@@ -44,6 +44,7 @@ export function mount(main, route) {
   const reactions = new Reactions({ ledger, operator: () => job.options.operator, named: (text) => entry.named(text, true, true), onDone: () => entry.focus() });
   const entry = new Entry({
     job: () => (reason() ? { reason: reason() } : job.current()),
+    subject: () => `${plan.chosen}\n${job.subject}`,
     gauged: () => job.current(),
     isSize: (field) => field === job.input,
     prefixes: () => job.prefixes.texts, pattern: () => plan.plan?.part_pattern ?? '',
@@ -171,6 +172,7 @@ export function mount(main, route) {
   function jobChanged(another) {
     const path = job.designation ? [job.designation] : [];
     go({ view: 'gauge', path, options: { ...job.options, plan: plan.chosen, ...(plan.part && { gauge: job.ownGauge }) } }, { refine: true });
+    entry.jobChanged();
     if (plan.samples.ofAnother) plan.samples.renew();
     if (job.part !== partBefore) {
       partBefore = job.part;

@@ -184,6 +184,51 @@ describe('the door for keys', () => {
     await close(page);
   });
 
+  it('ends a question when another thing is gauged: its line is read anew', async () => {
+    await station('#/gauge?plan=4711-A&part_id=SN-40');
+    const ended = async (line, act) => {
+      await page.focus('#value');
+      await scan(page, line);
+      await asks(/far outside/);
+      await act();
+      await page.waitForSelector('.answers', { state: 'detached' });
+      await notes(/Not stored/);
+      assert.equal(await page.inputValue('#value'), line);
+    };
+    const field = (name, text) => async () => {
+      if (name !== 'part_id') await page.click('.more summary');
+      await page.fill(`[name="${name}"]`, text);
+      await page.press(`[name="${name}"]`, 'Tab');
+    };
+    await ended('40.01', field('part_id', 'SN-41'));
+    for (const name of ['order', 'gauge', 'operator']) await ended('40.01', field(name, 'X-1'));
+    await ended('40.01', () => page.fill('#designation', '41 H8'));
+    await ended('40.01', () => page.selectOption('.plan select', ''));
+    await page.selectOption('.plan select', '4711-A');
+    await known(page);
+    await ended('40.01', () => page.click('.tiles-of-plan li:nth-child(2) button'));
+    assert.deepEqual(await storedSince(), []);
+    await page.focus('#value');
+    await sleep(PAIR_MS);
+    await page.keyboard.press('Enter');
+    await stored(1);
+    assert.deepEqual((await storedSince()).map(({ part_id, characteristic, confirmed }) => [part_id, characteristic, confirmed]), [['SN-41', 'bore-B', undefined]]);
+    // While a size is not known the answer is none.
+    await page.click('.tiles-of-plan li:nth-child(1) button');
+    await page.focus('#value');
+    await scan(page, '0.98476');
+    await asks(/far outside/);
+    await page.evaluate(() => {
+      const size = document.querySelector('#designation');
+      size.value = '';
+      size.dispatchEvent(new InputEvent('input', { bubbles: true }));
+      [...document.querySelectorAll('.answers button')].find((one) => one.textContent.startsWith('Inches')).click();
+    });
+    await page.waitForSelector('.entry.refusing');
+    assert.equal((await storedSince()).length, 1);
+    await close(page);
+  });
+
   it('loses nothing that is scanned while the page is on its way', async () => {
     await station();
     const onItsWay = async () => {
