@@ -245,7 +245,7 @@ export class Entry {
     const { record } = this.correcting;
     if (isReading(typed, { limits: record })) return this.#refuse(t('entry.reading', { typed }));
     const read = readLine(typed, { burst, prefixes: this.prefixes(), pattern: this.pattern() });
-    if (read.kind === 'doubt') return this.#doubt(typed, read.text, read.name);
+    if (read.kind === 'doubt') return this.#doubt(typed, read.text, read.name, record);
     if (read.kind === 'test' || (read.kind === 'field' && read.name !== 'part_id')) return this.#refuse(t('entry.malformed', { typed }));
     return this.#finish(() => this.onField('part_id', read.kind === 'field' ? read.text : typed, record));
   }
@@ -285,18 +285,27 @@ export class Entry {
     this.#question(t('entry.ask', { mm: number(text), size }), text, [
       { label: t('entry.ask_drop'), act: () => this.#drop() },
       !isFar(nmFromMm(mm), job) && { label: t('entry.ask_inches', { mm: number(mm) }), act: () => this.#answer(text, () => this.#accept(mm)) },
-      !this.correcting && { label: t('entry.ask_part', { part: typed }), act: () => this.#answer(text, () => this.#finish(() => this.onField('part_id', typed))) },
+      !this.correcting && { label: `${t('field.part_id')} ${typed}`, act: () => this.#answer(text, () => this.#finish(() => this.onField('part_id', typed))) },
       { label: t('entry.ask_keep', { mm: number(text) }), act: () => this.#answer(null, () => this.#accept(text, true)) },
     ]);
   }
 
-  /** A scan that may have come through another layout of keys, is an address, or no number of the plan's parts. */
-  #doubt(typed, text, name) {
+  /**
+   * A scan that may have come through another layout of keys, is an address, or no number of the plan's parts.
+   * @param record whose part it is to be; without one it goes into the field of the station, and what was corrected goes on
+   */
+  #doubt(typed, text, name, record) {
+    const { correcting } = this;
+    const goOn = () => correcting && this.correct(correcting.record, correcting.what);
     this.input.value = typed;
-    const pattern = this.pattern();
-    this.#question(t(isOfPattern(text, pattern) ? 'entry.doubt' : 'entry.doubt_pattern', { part: text, pattern }), null, [
-      { label: t('entry.doubt_no'), act: () => this.#drop() },
-      { label: t('entry.ask_part', { part: text }), act: () => this.#answer(null, () => this.#finish(() => this.onField(name, text, this.correcting?.record))) },
+    const pattern = name === 'part_id' ? this.pattern() : '';
+    const field = t(`field.${name}`);
+    this.#question(t(isOfPattern(text, pattern) ? 'entry.doubt' : 'entry.doubt_pattern', { field, text, pattern }), null, [
+      { label: t('entry.doubt_no'), act: () => { this.#drop(); goOn(); } },
+      { label: `${field} ${text}`, act: () => this.#answer(null, () => {
+        this.#finish(() => this.onField(name, text, record));
+        if (!record) goOn();
+      }) },
     ]);
   }
 

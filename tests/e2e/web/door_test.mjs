@@ -94,7 +94,7 @@ describe('the door for keys', () => {
     for (const [i, [text, name]] of [['PÖSN-2006', 'PÖSN-2006'], ['SNß2007', 'SNß2007'], ['https://ex.org/p/SN-2011', 'SN-2011']].entries()) {
       if (i % 2) await page.focus('[name="part_id"]');
       await scan(page, `${text}\n`); // the second Enter of a pair is no answer
-      await asks(new RegExp(`Is ${name} the part`));
+      await asks(new RegExp(`Part: is ${name} right`));
       assert.equal(await part(), 'SN-2010');
       await sleep(PAIR_MS);
       await page.keyboard.press('Enter');
@@ -119,7 +119,7 @@ describe('the door for keys', () => {
     for (const [at, text] of [[null, 'SN-20101'], [null, 'P:LOT-2010'], ['[name="part_id"]', 'SN-201'], ['[name="part_id"]', '9999999']]) {
       if (at) await page.focus(at);
       await scan(page, text);
-      await asks(new RegExp(`Is ${text.replace('P:', '')} the part\\? Numbers of this plan are SN-####`));
+      await asks(new RegExp(`Part: is ${text.replace('P:', '')} right\\? Numbers of this plan are SN-####`));
       await sleep(PAIR_MS);
       await page.keyboard.press('Enter');
       await page.waitForSelector('.verdict[data-verdict="idle"]');
@@ -142,12 +142,31 @@ describe('the door for keys', () => {
       await notes(why);
     }
     await scan(page, 'SNß21');
-    await page.click('.answers >> text=No, scan again');
-    await corrects();
+    await page.click('.answers >> text=No, scan again'); // and it is still corrected
+    await page.waitForSelector('.entry.correcting');
     await scan(page, ']C1SN-21');
     await page.waitForSelector('.recent li.corrected');
     await page.waitForSelector('.link[data-state="up"]');
     assert.deepEqual((await storedSince()).map(({ part_id, correction_of }) => [part_id, Boolean(correction_of)]), [['SN-20', false], ['SN-21', true]]);
+    await close(page);
+  });
+
+  it('asks about a scan into another field as of that field, and corrects no record by it', async () => {
+    await station('#/gauge/25H7?part_id=SN-22&order=T4');
+    await scan(page, '25.019');
+    await stored(1);
+    await page.click('.recent .fix button:first-child');
+    await page.click('.more summary');
+    await page.focus('[name="order"]');
+    await scan(page, 'WÖ-18');
+    await asks(/^Order: is WÖ-18 right\?$/);
+    await page.click('.answers >> text=Order WÖ-18');
+    assert.equal(await page.inputValue('[name="order"]'), 'WÖ-18');
+    await page.waitForSelector('.entry.correcting'); // goes on
+    await scan(page, '25.013');
+    await page.waitForSelector('.recent li.corrected');
+    await page.waitForSelector('.link[data-state="up"]');
+    assert.deepEqual((await daemon.stored('part_id=SN-22&history=all')).map(({ measured_mm, order }) => [measured_mm, order]), [[25.019, 'T4'], [25.013, 'T4']]);
     await close(page);
   });
 
