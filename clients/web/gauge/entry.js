@@ -8,7 +8,7 @@ import { designationText } from '../designation.js';
 import { h } from '../dom.js';
 import { LARGEST_NM, mmText, nmFromMm, parseMeasured } from '../exact.js';
 import { number, t } from '../i18n.js';
-import { forget, readStored, store } from '../stored.js';
+import { forget, readJson, store } from '../stored.js';
 import { isBadge } from './badge.js';
 import { BURST_GAP_MS, BurstWatch, gaugeValue, isFar, isOfPattern, isReading, mmOfInches, readLine, scannerTest } from './reading.js';
 
@@ -35,7 +35,7 @@ export class Entry {
    * @param onBadge takes a key that was scanned
    * @param isKnown tells whether a text names something known, such as a plan; @param onTyped is told of the first character
    * @param onOpen takes what was typed and is not taken as it is, and why; @param onAsk takes {text, question, choices}, null once it is answered
-   * @param onCorrecting takes the record that the next line corrects and what of it, null once it is corrected or left
+   * @param recordOf gives the record in force of an id; @param onCorrecting takes the record that the next line corrects and what of it, null once it is corrected or left
    * @param onTest takes what a scanner has made of the test code
    * @param onDropped takes the decimal of a value that was asked about and not kept
    */
@@ -63,13 +63,22 @@ export class Entry {
     this.input.focus();
   }
 
-  /** What was typed and not ended before a reload is there again, and is not stored. */
+  /** What was typed and not ended before a reload is there again, and is not stored; a correction goes on. */
   resume() {
-    const typed = readStored(KEPT, 'session');
-    if (!typed) return;
+    const { typed, id, what } = readJson(KEPT, {}, 'session');
+    const record = id && this.recordOf(id);
+    if (record) this.correct(record, what);
+    if (!typed || (id && !record)) return;
     this.input.value = typed;
+    this.#keep();
     this.input.select(); // the next line replaces it
     this.#say(t('entry.resumed', { typed }));
+  }
+
+  /** No key for the service is kept. */
+  #keep() {
+    const typed = /^fg_/.test(this.input.value) ? '' : this.input.value;
+    store(KEPT, JSON.stringify({ typed, id: this.correcting?.record.id, what: this.correcting?.what }), 'session');
   }
 
   /** Sends the keys of the page here that no other field takes. */
@@ -177,6 +186,7 @@ export class Entry {
   correct(record, what = 'measured_mm') {
     this.#reset();
     this.correcting = { record, what };
+    this.#keep();
     this.onCorrecting(record, what);
     this.label.textContent = what === 'measured_mm'
       ? t('entry.correcting', { mm: number(mmText(nmFromMm(record.measured_mm))) })
@@ -364,7 +374,7 @@ export class Entry {
   #typed() {
     this.unchanged = false;
     if (this.input.value) this.onTyped();
-    if (!/^fg_/.test(this.input.value)) store(KEPT, this.input.value, 'session');
+    this.#keep();
     if (this.input.value === '') this.#forgetKeys();
     this.#withdraw();
     this.element.classList.remove('asking', 'refusing');

@@ -39,6 +39,12 @@ export class Recent {
     return value && (value.record ?? null);
   }
 
+  /** The record of an id; undefined where it was not measured here, or was corrected. */
+  inForce(id) {
+    const value = this.ledger.ofRecord(id);
+    return value && !OLD.includes(this.ledger.stateOf(value)) ? value.record : undefined;
+  }
+
   /** The records in force of what a record is of, the newest last, without it. */
   like(record) {
     const records = this.keys.map((key) => this.ledger.get(key)).filter((value) => value?.record && !OLD.includes(this.ledger.stateOf(value))).map((value) => value.record);

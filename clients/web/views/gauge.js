@@ -60,6 +60,7 @@ export function mount(main, route) {
       if (question) panel.ask(question);
       else if (!panel.answered()) next();
     },
+    recordOf: (id) => recent.inForce(id),
     onCorrecting: (record, what) => (record ? panel.correcting(record, what) : panel.answered()),
     onTest: (result) => panel.scanner(result, job.prefixes.fieldOf(result.before)),
     onDropped: (text) => {
@@ -339,7 +340,7 @@ export function mount(main, route) {
     // Where there are plans, a station begins with the scan of one.
     if (plan.known.length && document.activeElement === job.input && !job.designation) entry.focus();
   });
-  if (job.designation) entry.focus();
+  if (job.designation || entry.correcting) entry.focus();
   else job.input.focus();
   entry.takeFirst();
   askOfOpen();

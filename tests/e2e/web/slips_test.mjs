@@ -128,6 +128,34 @@ describe('a key at the wrong moment', () => {
     assert.match(await page.textContent('.entry .label'), /25\.0112/);
   });
 
+  it('leaves a correction a correction over a reload, another language and another view', async () => {
+    await openStation('order=W-RESUME');
+    await slow('25.019');
+    await page.click('.recent .fix button:first-child');
+    await page.keyboard.type('25.013');
+    const goesOn = async () => {
+      await page.waitForSelector('.entry.correcting');
+      await page.waitForSelector('.verdict[data-verdict="correcting"]');
+      assert.equal(await page.inputValue('#value'), '25.013');
+    };
+    await page.reload();
+    await goesOn();
+    for (const language of ['de', 'en']) {
+      await page.selectOption('#language', language);
+      await page.waitForFunction((wanted) => document.documentElement.lang === wanted, language);
+      await goesOn();
+    }
+    await page.click('#views a[href^="#/tables"]');
+    await page.waitForSelector('.grid');
+    await page.goBack();
+    await goesOn();
+    await page.focus('#value');
+    await page.keyboard.press('Enter');
+    await page.waitForSelector('.recent .corrected');
+    assert.deepEqual(await stored('W-RESUME'), [[undefined, 25.019], [undefined, 25.013]]);
+    assert.deepEqual((await daemon.stored('order=W-RESUME')).map(({ measured_mm: mm }) => mm), [25.013]);
+  });
+
   it('goes on in the dialog for keys: a revoked key gives no part the value of another', async () => {
     const locked = await new Daemon('--auth', 'read-open').start();
     const [first, second] = [await locked.key('ada', 'operator'), await locked.key('bob', 'operator')];
