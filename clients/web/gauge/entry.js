@@ -255,9 +255,11 @@ export class Entry {
     const { record } = this.correcting;
     if (isReading(typed, { limits: record })) return this.#refuse(t('entry.reading', { typed }));
     const read = readLine(typed, { burst, prefixes: this.prefixes(), pattern: this.pattern() });
-    if (read.kind === 'doubt') return this.#doubt(typed, read.text, read.name, record);
     if (read.kind === 'test' || (read.kind === 'field' && read.name !== 'part_id')) return this.#refuse(t('entry.malformed', { typed }));
-    return this.#finish(() => this.onField('part_id', read.kind === 'field' ? read.text : typed, record));
+    const part = ['doubt', 'field'].includes(read.kind) ? read.text : typed;
+    if (part === record.part_id) return this.#refuse(t('correct.nothing'));
+    if (read.kind === 'doubt') return this.#doubt(typed, part, 'part_id', record);
+    return this.#finish(() => this.onField('part_id', part, record));
   }
 
   #job() {
@@ -269,6 +271,7 @@ export class Entry {
     if (job.reason) return this.#refuse(job.reason);
     const nm = nmFromMm(text);
     if (nm <= 0 || nm > LARGEST_NM) return this.#refuse(t('entry.out_of_range', { typed: this.input.value.trim() }));
+    if (this.correcting && nm === nmFromMm(this.correcting.record.measured_mm)) return this.#refuse(t('correct.nothing'));
     if (isFar(nm, job)) return this.#ask(text, job);
     return this.#accept(text);
   }

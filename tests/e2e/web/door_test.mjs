@@ -137,7 +137,7 @@ describe('the door for keys', () => {
     await stored(1);
     const corrects = () => page.getByRole('button', { name: 'Correct the part SN-20' }).click();
     await corrects();
-    for (const [line, why] of [['01A+00025.015', /is a value/], ['O:WO-17', /Not stored/]]) {
+    for (const [line, why] of [['01A+00025.015', /is a value/], ['O:WO-17', /Not stored/], ['P:SN-20', /have not changed/]]) {
       await scan(page, line);
       await notes(why);
     }
@@ -163,6 +163,8 @@ describe('the door for keys', () => {
     await page.click('.answers >> text=Order WÖ-18');
     assert.equal(await page.inputValue('[name="order"]'), 'WÖ-18');
     await page.waitForSelector('.entry.correcting'); // goes on
+    await scan(page, '25.0190');
+    await notes(/Value and part have not changed/);
     await scan(page, '25.013');
     await page.waitForSelector('.recent li.corrected');
     await page.waitForSelector('.link[data-state="up"]');
