@@ -312,10 +312,13 @@ export class Plan {
   #resume() {
     const kept = readJson(KEPT_STATE, {}, 'session');
     const subject = this.subjectNow();
-    if (kept.part !== this.part || kept.subject !== subject || !this.plan.characteristics[kept.at]) return false;
+    if (kept.part !== this.part || kept.subject !== subject) return false;
     Object.assign(this, { subject, round: kept.round });
     this.askElsewhere();
-    this.go(kept.at, kept.finished);
+    // The plan may have been changed meanwhile.
+    const at = this.plan.characteristics.findIndex(({ name }) => name === kept.name);
+    if (!kept.finished) this.#goTo(at < 0 || this.#isTaken(at) ? this.#next(0) : at);
+    else this.go(Math.max(at, 0), true);
     this.#renew();
     return true;
   }
@@ -358,8 +361,8 @@ export class Plan {
   }
 
   #keep() {
-    const { part, subject, at, finished, round } = this;
-    store(KEPT_STATE, JSON.stringify({ part, subject, at, finished, round }), 'session');
+    const { part, subject, current, finished, round } = this;
+    store(KEPT_STATE, JSON.stringify({ part, subject, name: current?.name, finished, round }), 'session');
   }
 
   go(at, finished = false) {

@@ -379,6 +379,20 @@ describe('a plan left in the middle', () => {
     await progress('All 3 measured');
   });
 
+  it('goes on at its characteristic, by name, where the plan was changed before the reload', async () => {
+    await begin('MOVED', 'order=W-MOVED');
+    await scan('SN-1');
+    await slow('25.001');
+    await progress('2 of 3');
+    const reloadWith = async (names, current) => {
+      await daemon.send('PUT', '/v1/plans/MOVED', { characteristics: names.map((name) => ({ name, designation: '25 H7' })) });
+      await page.reload();
+      await page.waitForFunction((wanted) => document.querySelector('.tiles-of-plan [aria-current] span:not(.unseen)')?.textContent === wanted, current);
+    };
+    await reloadWith(['bore-0', 'bore-1', 'bore-2', 'bore-3'], 'bore-2');
+    await reloadWith(['bore-1', 'bore-0', 'bore-3'], 'bore-0'); // there is no bore-2 any more: the first that is due
+  });
+
   it('is finished when everything is measured, in any order, and takes no further value for the same part', async () => {
     await begin('ORDER', 'order=W-ORDER');
     await scan('SN-1');
