@@ -3,6 +3,9 @@
  * Only on what a click acts on: a browser may not tell of the release of a scroll bar, of a menu or of its own list.
  */
 
+/** What comes again within this time, an Enter or a tap, is the second of a pair and no answer. */
+export const PAIR_MS = 300;
+
 const CLICKED = 'a, button, input, label, summary';
 /** A release that is never told holds back no news for longer. */
 const LONGEST_MS = 30_000;

@@ -1,18 +1,17 @@
 /**
  * The one door for keys: whatever is scanned into any field, or typed outside another field, comes here whole, and is
- * read at Enter, Tab or CR LF. An Enter with nothing new typed is the second of a pair (CR LF, a
- * bouncing key) for 300 ms.
+ * read at Enter, Tab or CR LF. An Enter with nothing new typed is the second of a pair (CR LF, a bouncing key).
  */
 
 import { designationText } from '../designation.js';
 import { h } from '../dom.js';
 import { LARGEST_NM, mmText, nmFromMm, parseMeasured } from '../exact.js';
 import { number, t } from '../i18n.js';
+import { PAIR_MS } from '../press.js';
 import { forget, readJson, store } from '../stored.js';
 import { isBadge } from './badge.js';
 import { BURST_GAP_MS, BurstWatch, gaugeValue, isFar, isOfPattern, isReading, mmOfInches, readLine, scannerTest } from './reading.js';
 
-const SECOND_ENTER_MS = 300;
 /** Where characters are typed: what is chosen or ticked takes none of a gauge's. */
 const FIELDS = 'input:not([type="checkbox"], [type="radio"]), textarea, dialog, [contenteditable]';
 /** The fields of the station besides this one: a scan into any of them comes here. */
@@ -203,7 +202,7 @@ export class Entry {
     this.struck = undefined;
     // A size is being asked for: what is typed stays in the field.
     if (this.adopting) return this.input.value.trim() ? this.#refuse(t('entry.busy')) : undefined;
-    const second = now - this.lastEnter < SECOND_ENTER_MS;
+    const second = now - this.lastEnter < PAIR_MS;
     this.lastEnter = now;
     if (this.unchanged) {
       if (second) return undefined;

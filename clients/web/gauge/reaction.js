@@ -6,6 +6,7 @@
 import { getJson, url } from '../api.js';
 import { h, refill } from '../dom.js';
 import { t } from '../i18n.js';
+import { PAIR_MS } from '../press.js';
 import { readJson, store } from '../stored.js';
 import { verdictMark } from '../verdict.js';
 
@@ -16,8 +17,20 @@ export class Reactions {
   /** @param ledger the values and their state; @param operator who says it; @param named the door for keys, as of a name; @param onDone is told when nothing is left to be done */
   constructor({ ledger, operator, named, onDone }) {
     Object.assign(this, { ledger, operator, named, onDone });
+    this.lastTap = -Infinity;
     this.element = h('section.reactions', { role: 'alert', 'aria-label': t('reaction.label') });
+    this.element.addEventListener('click', (event) => this.#tapped(event), { capture: true });
     this.draw();
+  }
+
+  /** The next choices stand where the last did: the second tap of a pair answers none of them. */
+  #tapped(event) {
+    if (!event.detail || !event.target.closest('button')) return; // a key
+    const isSecond = event.timeStamp - this.lastTap < PAIR_MS;
+    this.lastTap = event.timeStamp;
+    if (!isSecond) return;
+    event.preventDefault();
+    event.stopPropagation();
   }
 
   /** Why no value is taken; '' where one is. */

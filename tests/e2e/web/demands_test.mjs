@@ -14,9 +14,10 @@ import assert from 'node:assert/strict';
 import { before, beforeEach, describe, it } from 'node:test';
 
 import { close, findings, open, openIn, picture, timer } from './support/browser.mjs';
+import { sleep } from './support/daemon.mjs';
 import { eventually } from './support/eventually.mjs';
 import { hold } from './support/hold.mjs';
-import { known, scan } from './support/scanner.mjs';
+import { known, PAIR_MS, scan } from './support/scanner.mjs';
 import { begin, browser, daemon, storedSince } from './support/stage.mjs';
 
 describe('what a value demands', () => {
@@ -40,7 +41,12 @@ describe('what a value demands', () => {
   const marks = () => page.$$eval('.tiles-of-plan li', (all) => all.map((tile) => tile.querySelector('.shape')?.dataset.verdict));
   const hasMarks = (...wanted) => eventually(async () => assert.deepEqual(await marks(), wanted));
   const isUp = () => page.waitForSelector('.link[data-state="up"]');
-  const say = async (...texts) => { for (const text of texts) await page.click(`.choices-of >> text=${text}`); };
+  const say = async (...texts) => {
+    for (const text of texts) {
+      await page.click(`.choices-of >> text=${text}`);
+      await sleep(PAIR_MS);
+    }
+  };
   const notes = async () => (await daemon.stored('history=all&notes=shown')).slice(-(await storedSince()).length)
     .map((record) => [record.measured_mm, ...(record.notes ?? []).map((note) => [note.cause, note.measure])]);
 
@@ -133,6 +139,27 @@ describe('what a value demands', () => {
     await line('40.01'); // the station is free again
     await hasMarks('good', 'good', undefined);
     await isUp();
+    await close(page);
+  });
+
+  it('takes a double tap on a cause for one: it is no action', async () => {
+    await station('SN-TAP');
+    await line('25.04');
+    await page.waitForSelector('.reactions .catalogue');
+    await page.evaluate(() => {
+      const now = performance.now();
+      const tap = (ago) => {
+        const event = new MouseEvent('click', { bubbles: true, cancelable: true, detail: 1 });
+        Object.defineProperty(event, 'timeStamp', { value: now - ago });
+        document.querySelector('.choices-of button').dispatchEvent(event);
+      };
+      tap(1000);
+      tap(800);
+    });
+    assert.match(await page.textContent('.reactions'), /Insert worn.*What is done about it/);
+    await say('Part scrapped');
+    await isUp();
+    await eventually(async () => assert.deepEqual(await notes(), [[25.04, ['Insert worn', 'Part scrapped']]]));
     await close(page);
   });
 

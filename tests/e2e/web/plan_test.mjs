@@ -232,6 +232,7 @@ describe('a plan', () => {
     await page.press('[name="measure"]', 'Enter');
     await line('25.05');
     await page.click('text=Insert worn');
+    await sleep(PAIR_MS);
     await page.click('text=Scrapped');
     await daemon.start();
     await page.waitForSelector('.link[data-state="up"]');
