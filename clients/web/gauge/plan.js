@@ -58,11 +58,12 @@ async function planOf(part) {
 export class Plan {
   /**
    * @param ledger the values and their state
+   * @param onAgain is told that the part is measured anew
    * @param onStep is told that another characteristic is next; @param onChoose takes a part number, or '' for none; @param onRecord is told what the service has of the part
    * @param machine whose samples these are; @param subject the part that is measured; @param leaving ends it
    */
-  constructor({ ledger, onStep, onChoose, onRecord, machine, subject, leaving }) {
-    Object.assign(this, { ledger, onStep });
+  constructor({ ledger, onStep, onAgain, onChoose, onRecord, machine, subject, leaving }) {
+    Object.assign(this, { ledger, onStep, onAgain });
     this.record = new PartRecord(ledger, onRecord, leaving);
     this.subjectNow = subject;
     this.samples = new Samples({ machine, leaving, onChange: () => this.#renew() });
@@ -306,6 +307,7 @@ export class Plan {
     this.ledger.again(this.part, this.subject);
     this.note.textContent = '';
     this.#goTo(this.#next(0));
+    this.onAgain();
   }
 
   /** Goes on where this window was with this part. @returns whether it was there */

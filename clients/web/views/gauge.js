@@ -82,7 +82,7 @@ export function mount(main, route) {
 
   const plan = new Plan({
     ledger,
-    onStep: (one) => job.follow(one, ownLimits(one)), onChoose: (part) => choosePlan(part), onRecord: () => sayPartAnew(),
+    onStep: (one) => job.follow(one, ownLimits(one)), onAgain: () => entry.focus(), onChoose: (part) => choosePlan(part), onRecord: () => sayPartAnew(),
     machine: () => job.options.machine, subject: () => job.part, leaving: leaving.signal,
   });
   let stepped = false;

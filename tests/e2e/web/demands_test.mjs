@@ -237,7 +237,8 @@ describe('what a value demands', () => {
     await hasMarks('good', 'good', 'good');
     await line('25.012');
     assert.match(await page.textContent('#entry-note'), /Not stored.*All of SN-9 is measured/);
-    await page.click('.of-plan button'); // after rework it is measured anew
+    await page.press('.of-plan button', 'Enter'); // after rework it is measured anew
+    assert.equal(await page.evaluate(() => document.activeElement.id), 'value');
     await hasMarks(undefined, undefined, undefined);
     await page.keyboard.press('Escape');
     const other = await openIn(page.context(), daemon, '#/gauge?plan=4711-A&part_id=SN-9');
