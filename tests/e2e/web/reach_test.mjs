@@ -12,7 +12,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { before, describe, it } from 'node:test';
 
-import { close, drawn, launch, open, picture } from './support/browser.mjs';
+import { browserName, close, drawn, launch, open, picture } from './support/browser.mjs';
 import { leastLettering, openChart } from './support/chart.mjs';
 import { Daemon } from './support/daemon.mjs';
 import { known } from './support/scanner.mjs';
@@ -174,6 +174,14 @@ describe('the reach of the page', () => {
       await picture(page, `station-${viewport.width}-${pad ? 'pad' : 'plan'}`);
       await close(page);
     }
+  });
+
+  it('shows the state of the service where colours are forced', async () => {
+    if (browserName !== 'chromium') return;
+    const page = await openView('tables', { viewport: { width: 1024, height: 768 }, forcedColors: 'active' });
+    const [sign, ground] = await page.evaluate(() => [getComputedStyle(document.querySelector('.link'), '::before'), getComputedStyle(document.body)].map(({ backgroundColor }) => backgroundColor));
+    assert.notEqual(sign, ground);
+    await close(page);
   });
 
   it('keeps the focus where it was, and moves it to a new view', async () => {
