@@ -176,6 +176,24 @@ describe('the reach of the page', () => {
     }
   });
 
+  it('breaks long names of parts, characteristics and plans on a phone, and cuts none', async () => {
+    const [part, characteristic, plan] = [41, 62, 60].map((length) => 'W'.repeat(length));
+    const own = await new Daemon().start();
+    await own.send('PUT', `/v1/plans/${plan}`, { characteristics: [{ name: characteristic, designation: '25 H7' }] });
+    const page = await open(browser, own, `#/gauge/25H7?part_id=${part}&characteristic=${characteristic}`, { viewport: { width: 360, height: 740 } });
+    await page.waitForSelector('.echo .figures');
+    const wide = () => page.evaluate(() => [document.documentElement.scrollWidth, ...[...document.querySelectorAll('.recent, .recent li')].map((one) => one.scrollWidth - one.clientWidth)]);
+    assert.deepEqual(await wide(), [360, 0]);
+    await page.keyboard.type('25.0131\n');
+    await page.waitForSelector('.recent li.stored .fix');
+    assert.deepEqual(await wide(), [360, 0, 0]);
+    await page.goto(`${own.url}/#/plans/${plan}`);
+    await page.waitForSelector(READY.plans);
+    assert.deepEqual(await wide(), [360]);
+    await close(page);
+    await own.cleanup();
+  });
+
   it('shows the state of the service where colours are forced', async () => {
     if (browserName !== 'chromium') return;
     const page = await openView('tables', { viewport: { width: 1024, height: 768 }, forcedColors: 'active' });
