@@ -55,10 +55,15 @@ export function mount(main, route) {
     isKnown: (text) => plan.knows(text),
     isName: (name) => FIELDS.includes(name),
     onTyped: () => { if (stepped) next(); },
-    onOpen: (typed, why) => panel.open(typed, why),
+    onOpen: (typed, why) => {
+      panel.open(typed, why);
+      show();
+    },
     onAsk: (question) => {
-      if (question) panel.ask(question);
-      else if (!panel.answered()) next();
+      if (question) {
+        panel.ask(question);
+        show();
+      } else if (!panel.answered()) next();
     },
     recordOf: (id) => recent.inForce(id),
     onCorrecting: (record, what) => (record ? panel.correcting(record, what) : panel.answered()),
@@ -122,6 +127,9 @@ export function mount(main, route) {
     panel.waiting(shown, !connection.up, late);
     if (!connection.up) sayPart();
   }
+
+  /** What became of a line is seen, also above a number pad on a phone. */
+  const show = () => panel.element.scrollIntoView({ block: 'nearest' });
 
   const next = () => {
     stepped = false;
@@ -232,6 +240,7 @@ export function mount(main, route) {
     if (shown.verdict) showWaiting(shown);
     ledger.taken(key, shown, of);
     recent.add(key);
+    show();
     setTimeout(() => {
       if (panel.of === key && queue.values.some((waiting) => waiting.key === key)) showWaiting(shown, true);
     }, GAP_MS);
@@ -254,7 +263,10 @@ export function mount(main, route) {
     if (!shown.late) {
       const isOvertaken = panel.of !== key && isSeen;
       panel.judged(record, isOvertaken);
-      if (!isOvertaken) sayPart();
+      if (!isOvertaken) {
+        sayPart();
+        show();
+      }
     } else if (!queue.values.length) next();
   }, { signal });
   queue.addEventListener('refused', ({ detail: { entry: { key, of, shown }, problem } }) => {

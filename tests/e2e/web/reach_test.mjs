@@ -167,11 +167,37 @@ describe('the reach of the page', () => {
       await page.waitForSelector('.verdict[data-verdict="reject"]:not([data-provisional]) .distance');
       const bottom = (selector) => page.$eval(selector, (element) => element.getBoundingClientRect().bottom);
       const free = viewport === PHONE ? await page.$eval('.pad', (element) => element.getBoundingClientRect().top) : viewport.height;
-      assert.ok(await page.evaluate(() => scrollY) === 0);
+      if (viewport !== PHONE) assert.ok(await page.evaluate(() => scrollY) === 0);
       assert.ok(await bottom('.verdict .distance') <= free, `${viewport.width}: ${await bottom('.verdict .distance')} of ${free}`);
       if (viewport !== PHONE) assert.ok(await bottom('.verdict') <= free, `${viewport.width}: ${await bottom('.verdict')}`);
       if (viewport === PHONE) assert.ok(await bottom('.pad') <= viewport.height);
       await picture(page, `station-${viewport.width}-${pad ? 'pad' : 'plan'}`);
+      await close(page);
+    }
+  });
+
+  it('shows a whole verdict, and a question with its answers, above the number pad of a small phone', async () => {
+    for (const height of [740, 640]) {
+      const page = await open(browser, daemon, `#/gauge/25H7?part_id=SN-${height}`, { viewport: { width: 360, height }, hasTouch: true, isMobile: browserName === 'chromium' });
+      await page.waitForSelector('.echo .figures');
+      if (await page.isHidden('.pad')) {
+        await page.click('.more summary');
+        await page.check('.choices label:has-text("Number pad") input');
+      }
+      const isWhole = (selector) => page.waitForFunction((wanted) => {
+        const { top, bottom } = document.querySelector(wanted).getBoundingClientRect();
+        return top >= 0 && bottom <= Math.min(innerHeight, document.querySelector('.pad').getBoundingClientRect().top);
+      }, selector);
+      for (const text of ['25.0131', '25.0305']) {
+        await page.focus('#value');
+        await page.keyboard.type(`${text}\n`);
+        await page.waitForSelector('.verdict:not([data-provisional]) .distance');
+        await isWhole('.verdict');
+      }
+      await page.keyboard.type('2009\n');
+      await page.waitForSelector('.answers');
+      await isWhole('.answers');
+      await picture(page, `station-360-${height}`);
       await close(page);
     }
   });
