@@ -74,8 +74,6 @@ class Upload {
                      "remove them for NDJSON"};
     }
     const auto input = std::make_shared<RowInput>(TRY(RowInput::open(context_, options_)));
-    // Requests for limits must wait while rows are on their way to the service.
-    reads_ahead_ = RowInput::keeps_lines(options_) && options_.input != "-";
     const auto read = [input](std::span<char> into) { return input->read(into); };
     if (!is_ndjson) return begin_chunks(read);
     CsvChunks chunks(read, {.rows = options_.chunk_rows});
@@ -257,7 +255,7 @@ class Upload {
   MeasureJournal journal_;
   MeasureState state_;
   std::uint64_t rows_sent_ = 0;
-  bool reads_ahead_ = false;  ///< a file, of which the next rows can be read at any time
+  bool reads_ahead_ = false;  ///< a file, whose next rows can be read without a request
   Progress progress_;
   Clock::time_point began_ = Clock::now();
   ProgressLine line_{context_.err};

@@ -25,18 +25,23 @@ struct RowInput::State {
 
 namespace {
 
-/// The tables are the service's.
+constexpr std::size_t kMostRemembered = 10'000;
+
+/// The tables are the service's, which is asked once for each nominal size and class.
 aqdef::LimitsOfClass limits_by(const Context& context) {
-  return [&context](Length nominal, const std::string& name) -> Result<aqdef::SizeLimits> {
+  return [&context, known = std::map<std::string, aqdef::SizeLimits>()](
+             Length nominal, const std::string& name) mutable -> Result<aqdef::SizeLimits> {
     const std::string target =
         "/v1/limits/" + percent_encoded(fmt::format("{} {}", format_mm(nominal), name));
-    const auto answer = context.send({.target = target});
+    if (const auto found = known.find(target); found != known.end()) return found->second;
+    const auto answer = context.persist({.target = target});
     if (!answer) return Error{ErrorCode::ClassUnknown, answer.error().message};
     const auto document = context.document_of(*answer);
     if (!document) return Error{ErrorCode::ClassUnknown, document.error().message};
     const auto upper = TRY(parse_length_mm(document->text_of("upper_limit_mm")));
     const auto lower = TRY(parse_length_mm(document->text_of("lower_limit_mm")));
-    return aqdef::SizeLimits{.upper = upper, .lower = lower};
+    if (known.size() == kMostRemembered) known.clear();
+    return known[target] = {.upper = upper, .lower = lower};
   };
 }
 
@@ -122,9 +127,10 @@ Outcome<RowInput> open_qif(const MeasureOptions& options, aqdef::MeasurementOpti
                                    {std::move(table), std::numeric_limits<std::size_t>::max()}));
 }
 
-Outcome<RowInput> open_ndjson(const MeasureOptions& options) {
+Outcome<RowInput> open_ndjson(const MeasureOptions& options, aqdef::LimitsOfClass limits_of) {
   const auto file = std::make_shared<InputFile>(TRY(InputFile::open(options.input)));
-  return opened(options.input, sheet::NdjsonRows::open({}, reading(file), sheet::Encoding::Utf8));
+  return opened(options.input, sheet::NdjsonRows::open({}, reading(file), sheet::Encoding::Utf8,
+                                                       std::move(limits_of)));
 }
 
 Outcome<RowInput> open_table(const MeasureOptions& options, sheet::ShopCsvOptions table) {
@@ -150,7 +156,7 @@ Outcome<RowInput> RowInput::open(const Context& context, const MeasureOptions& o
   auto table = TRY(table_options(context, options));
   if (qif::is_qif(options.input)) return open_qif(options, std::move(table));
   if (is_dfq(options.input)) return open_dfq(options, std::move(table));
-  if (sheet::is_ndjson(options.input)) return open_ndjson(options);
+  if (sheet::is_ndjson(options.input)) return open_ndjson(options, std::move(table.limits_of));
   return open_table(options, std::move(table));
 }
 

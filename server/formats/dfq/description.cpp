@@ -126,13 +126,12 @@ class ToleranceReader {
     }
     const auto agree = [&](const std::optional<Length>& said, const std::optional<Length>& by_class,
                            int number) -> Result<void> {
-      if (!said || said == by_class) return {};
+      const auto differs = difference(fmt::format("K{:04}", number), said, by_class, read_.nominal,
+                                      read_.class_name);
+      if (!differs) return {};
       const Described* const field = find(number);
       return wrong(field != nullptr ? field : find(k::kToleranceClass),
-                   fmt::format("has {} mm in K{:04}, but {} of {} mm gives {} mm: correct one of "
-                               "them, or remove K2103 and K2104",
-                               format_mm(*said), number, read_.class_name, format_mm(read_.nominal),
-                               by_class ? format_mm(*by_class) : "none"));
+                   *differs + ": correct one of them, or remove K2103 and K2104");
     };
     TRY(agree(read_.limits.lower, limits->lower, k::kLowerLimit));
     return agree(read_.limits.upper, limits->upper, k::kUpperLimit);
@@ -144,6 +143,15 @@ class ToleranceReader {
 };
 
 }  // namespace
+
+std::optional<std::string> difference(std::string_view field, std::optional<Length> in_file,
+                                      std::optional<Length> of_class, Length nominal,
+                                      std::string_view class_name) {
+  if (!in_file || in_file == of_class) return std::nullopt;
+  return fmt::format("has {} mm in {}, but {} of {} mm gives {}", format_mm(*in_file), field,
+                     class_name, format_mm(nominal),
+                     of_class ? format_mm(*of_class) + " mm" : "none");
+}
 
 const Described* FieldList::find(int number) const {
   const auto found = std::ranges::find_if(fields_, [number](const Described& field) {

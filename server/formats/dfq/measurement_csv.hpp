@@ -9,7 +9,6 @@ namespace fitgauge::aqdef {
 /// a file without that field, others are characteristics and values that are not measurements.
 struct MeasurementOptions : sheet::ShopCsvOptions {
   std::optional<LengthUnit> length_unit{};  ///< if the file has none
-  LimitsOfClass limits_of{};                ///< see read_tolerance
 };
 
 /// Converts a DFQ to CSV for /v1/measurements: a header, and a line for each value. K0053 is order,

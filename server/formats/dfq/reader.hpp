@@ -109,6 +109,13 @@ struct SizeLimits {
 /// Limits of a class for a nominal size, from the tables.
 using LimitsOfClass = std::function<Result<SizeLimits>(Length nominal, const std::string& name)>;
 
+/// Compares a limit of a file with the limit that its class gives.
+/// @param field of the file. @returns the difference, without a remedy; nothing if they agree, or
+/// the file has no such limit.
+std::optional<std::string> difference(std::string_view field, std::optional<Length> in_file,
+                                      std::optional<Length> of_class, Length nominal,
+                                      std::string_view class_name);
+
 /// The size of a characteristic.
 struct Toleranced {
   LengthUnit unit = LengthUnit::Millimetre;

@@ -82,10 +82,8 @@ Result<void> QifRows::read_tolerance(const Definitions::Item& item, std::uint32_
     if (!limits) return aqdef::at_line(line, "has a tolerance class: " + limits.error().message);
     for (const auto& [said, of_class, what] : {std::tuple(upper, limits->upper, "MaxValue"),
                                                std::tuple(lower, limits->lower, "MinValue")}) {
-      if (!said || !of_class || *said == *of_class) continue;
-      return aqdef::at_line(line, "has {} {}, whose {} is {} mm, but the document has {} mm",
-                            format_mm(target), definition->class_name, what, format_mm(*of_class),
-                            format_mm(*said));
+      const auto differs = aqdef::difference(what, said, of_class, target, definition->class_name);
+      if (differs) return aqdef::at_line(line, *differs + ": correct one of them");
     }
     return {};
   }

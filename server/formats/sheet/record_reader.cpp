@@ -1,23 +1,73 @@
 #include "formats/sheet/record_reader.hpp"
 
+#include "tables/standards/standard.hpp"
+
 namespace fitgauge::sheet {
 namespace {
 
 bool is_exported(const JsonValue& record) {
-  constexpr std::array<std::string_view, 4> kMembers = {"basis", "id", "source", "verdict"};
   return record.is(JsonValue::Kind::Object) &&
          std::ranges::all_of(
-             kMembers, [&record](std::string_view name) { return record.find(name) != nullptr; });
+             kOfExport, [&record](std::string_view name) { return record.find(name) != nullptr; });
+}
+
+Result<std::optional<Length>> length_in(std::string_view member, std::string_view text) {
+  if (text.empty()) return std::optional<Length>();
+  const auto read = aqdef::parse_length(text, aqdef::LengthUnit::Millimetre);
+  if (read) return std::optional(*read);
+  return Error::of(ErrorCode::CsvMalformed, "has '{}' in {}, which must be a length",
+                   first_characters(text, 40), member);
 }
 
 }  // namespace
 
-std::string_view field_of_export(std::string_view member, bool has_drawn_limits) {
-  for (const auto& [of_export, field] : kLimitsOfExport) {
-    if (member == of_export) return has_drawn_limits ? field : std::string_view();
+Result<ExportedRow> read_exported(
+    const std::function<std::string_view(std::string_view member)>& text_of,
+    const aqdef::LimitsOfClass& limits_of) {
+  const auto wrong = [](std::string message) {
+    return Error{ErrorCode::CsvMalformed, std::move(message)};
+  };
+  if (text_of("source") != "gauge")
+    return wrong("is simulated, and cannot be imported: export with source=gauge");
+  if (const std::string_view corrected = text_of("correction_of"); !corrected.empty()) {
+    return wrong(
+        fmt::format("is a correction of {}: remove the row and use `fitgauge correct`, or "
+                    "remove its correction_of to store it as a new measurement",
+                    first_characters(corrected, 40)));
   }
-  const bool is_field = aqdef::place_of(member) < kMeasurementFields.size();
-  return is_field && member != "designation" ? member : std::string_view();
+  const std::string_view basis = text_of("basis");
+  const std::string name(text_of("tolerance_class"));
+  ExportedRow row{.has_drawn_limits = basis == "explicit"};
+  row.has_feature = row.has_drawn_limits || standards::is_class(name);
+  if (name.empty()) return row;
+  const auto nominal = TRY(length_in("nominal_mm", text_of("nominal_mm")));
+  if (!nominal) return row;  // the reader of fields reports it
+  if (basis == "standard") {
+    standards::append_designation(row.designation, *nominal, name);
+  } else if (limits_of) {
+    const auto limits = limits_of(*nominal, name);
+    if (!limits) return wrong("has a tolerance class: " + limits.error().message);
+    for (const auto& [member, of_class] :
+         {std::pair("lower_limit_mm", limits->lower), std::pair("upper_limit_mm", limits->upper)}) {
+      const auto in_file = TRY(length_in(member, text_of(member)));
+      if (auto differs = aqdef::difference(member, in_file, of_class, *nominal, name))
+        return wrong(*differs + " here: set the same class, or correct the row");
+    }
+  }
+  return row;
+}
+
+std::string_view field_of_export(std::string_view member, const ExportedRow& row) {
+  const auto if_so = [](bool has, std::string_view field) {
+    return has ? field : std::string_view();
+  };
+  if (member == "upper_deviation_um") return if_so(row.has_drawn_limits, "upper_um");
+  if (member == "lower_deviation_um") return if_so(row.has_drawn_limits, "lower_um");
+  if (member == "feature") return if_so(row.has_feature, member);
+  if (member == "nominal_mm" || member == "tolerance_class")
+    return if_so(row.designation.empty(), member);
+  return if_so(member != kDesignation && aqdef::place_of(member) < kMeasurementFields.size(),
+               member);
 }
 
 Error at_table_line(ErrorCode code, std::size_t line, std::string_view what) {
@@ -128,28 +178,31 @@ Result<void> RecordReader::read_cell(std::string& cell, Record& record) {
   return at_table_line(ErrorCode::CsvMalformed, record.line, "has text after a closing quote");
 }
 
-Result<void> append_as_given(std::string& out, std::string_view line) {
+Result<void> NdjsonRows::append_as_given(std::string& out, std::string_view line) const {
   const auto record = parse_json(line);
   if (!record || !is_exported(*record)) {
     out += line;
     return {};
   }
-  if (record->text_of("source") != "gauge")
-    return Error{ErrorCode::CsvMalformed, std::string(kOfSimulation)};
-  const bool has_drawn_limits = record->text_of("basis") == "explicit";
+  const auto row = TRY(read_exported(
+      [&record](std::string_view member) { return record->text_of(member); }, limits_of_));
   char before = '{';
-  for (const auto& [member, value] : record->members) {
-    const std::string_view field = field_of_export(member, has_drawn_limits);
-    if (field.empty()) continue;
+  const auto append = [&](std::string_view field, const api::RawValue& value) {
     out += std::exchange(before, ',');
     append_json_string(out, field);
     out += ':';
-    if (value.is(JsonValue::Kind::String)) {
+    if (value.kind == JsonValue::Kind::String) {
       append_json_string(out, value.text);
     } else {
       out += value.text;
     }
+  };
+  for (const auto& [member, value] : record->members) {
+    const std::string_view field = field_of_export(member, row);
+    if (!field.empty()) append(field, api::raw_value(value));
   }
+  if (!row.designation.empty())
+    append(kDesignation, {.kind = JsonValue::Kind::String, .text = row.designation});
   out += '}';
   return {};
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/csv.hpp"
+#include "formats/dfq/reader.hpp"
 #include "formats/sheet/text_encoding.hpp"
 #include "record/measurement_row_reader.hpp"
 
@@ -138,23 +139,28 @@ class RecordReader {
 
 // Imports an export of fitgauge: ignores computed fields; limits of a class become the class.
 
-/// Names of the fields of explicit limits in an export; a class of the tables implies them too.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kLimitsOfExport = {
-    {{"feature", "feature"},
-     {"upper_deviation_um", "upper_um"},
-     {"lower_deviation_um", "lower_um"}}};
+/// Members that each record of a list of /v1/measurements has, and no other row has all of.
+inline constexpr std::array<std::string_view, 4> kOfExport = {"basis", "id", "received_at",
+                                                              "source"};
+inline constexpr std::string_view kDesignation = "designation";
+
+/// Form of the limits of an exported record.
+struct ExportedRow {
+  bool has_drawn_limits = true;
+  bool has_feature = true;    ///< which the limits do not imply
+  std::string designation{};  ///< of another standard, in place of the nominal size and the class
+};
+
+/// Reads the form of the limits of an exported record, and compares the limits of a class.
+/// @param text_of a member; empty: absent. @param limits_of may be null: then nothing is compared.
+/// @errors CsvMalformed, without a place: it is simulated, it is a correction, or the class gives
+/// other limits here.
+Result<ExportedRow> read_exported(
+    const std::function<std::string_view(std::string_view member)>& text_of,
+    const aqdef::LimitsOfClass& limits_of);
 
 /// Returns the field of a member; empty if it was computed or repeats another one.
-std::string_view field_of_export(std::string_view member, bool has_drawn_limits);
-
-/// Error text for a record of a simulation in place of one of a gauge.
-inline constexpr std::string_view kOfSimulation =
-    "is simulated, and cannot be imported: export with source=gauge";
-
-/// Appends a line of NDJSON for /v1/measurements: a record of a list with its original fields, any
-/// other line unchanged. @param line without its end
-/// @errors CsvMalformed, without a place: it is simulated.
-Result<void> append_as_given(std::string& out, std::string_view line);
+std::string_view field_of_export(std::string_view member, const ExportedRow& row);
 
 /// Whether a file name ends with `.ndjson` or `.jsonl`.
 bool is_ndjson(std::string_view file_name);
@@ -163,10 +169,12 @@ bool is_ndjson(std::string_view file_name);
 /// that errors have the lines of the file. Unusable after an error.
 class NdjsonRows {
  public:
-  /// @param first and again as for Utf8Input. @errors TextEncoding
-  static Result<NdjsonRows> open(const Read& first, Read again, Encoding encoding) {
+  /// @param first and again as for Utf8Input. @param limits_of as for read_exported
+  /// @errors TextEncoding
+  static Result<NdjsonRows> open(const Read& first, Read again, Encoding encoding,
+                                 aqdef::LimitsOfClass limits_of) {
     auto input = TRY(Utf8Input::open(first, std::move(again), encoding));
-    return NdjsonRows(std::move(input));
+    return NdjsonRows(std::move(input), std::move(limits_of));
   }
 
   /// Appends the next line. @returns false at the end.
@@ -174,11 +182,16 @@ class NdjsonRows {
   Result<bool> append(std::string& rows);
 
  private:
-  explicit NdjsonRows(Utf8Input input) : lines_(std::move(input)) {
+  NdjsonRows(Utf8Input input, aqdef::LimitsOfClass limits_of)
+      : lines_(std::move(input)), limits_of_(std::move(limits_of)) {
     lines_.set_separator(RecordReader::kNone);
   }
+  /// Appends a record of a list with its original fields, any other line unchanged.
+  /// @errors those of read_exported.
+  Result<void> append_as_given(std::string& out, std::string_view line) const;
 
   RecordReader lines_;
+  aqdef::LimitsOfClass limits_of_;
 };
 
 }  // namespace fitgauge::sheet

@@ -7,10 +7,6 @@ constexpr std::string_view kDate = "date";
 constexpr std::string_view kTime = "time";
 constexpr std::string_view kMeasuredAt = "measured_at";
 
-/// Columns that a list of /v1/measurements has as CSV, and no other table has all of.
-constexpr std::array<std::string_view, 5> kOfExport = {"id", "source", "basis", "verdict",
-                                                       "upper_deviation_um"};
-
 /// `sep=;` as a spreadsheet writes it before the header.
 std::optional<char> separator_line(std::string_view line) {
   if (line.size() == 5 && ascii_iequals(line.substr(0, 4), "sep=")) return line[4];
@@ -37,27 +33,28 @@ std::string ShopRows::field_of(std::string_view column) const {
   return options_.leaves_out_others ? std::string() : std::string(name);
 }
 
-Result<void> ShopRows::check_export(const Record& record) {
-  if (!basis_) return {};
-  has_drawn_limits_ = record.cells[*basis_] == "explicit";
-  if (record.cells[*source_] == "gauge") return {};
-  return at_table_line(ErrorCode::CsvMalformed, record.line, kOfSimulation);
+Result<void> ShopRows::read_export(const Record& record) {
+  if (members_.empty()) return {};
+  const auto text_of = [&](std::string_view member) -> std::string_view {
+    const auto found = std::ranges::find(members_, member);
+    if (found == members_.end()) return {};
+    return bare(record.cells[static_cast<std::size_t>(found - members_.begin())]);
+  };
+  auto row = read_exported(text_of, options_.limits_of);
+  if (!row) return at_table_line(row.error().code, record.line, row.error().message);
+  exported_ = *std::move(row);
+  return {};
 }
 
 std::string ShopRows::header_of(const Record& record) {
-  const auto place = [&record](std::string_view name) -> std::optional<std::size_t> {
-    const auto found = std::ranges::find(record.cells, name);
-    if (found == record.cells.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - record.cells.begin());
-  };
-  const bool is_export = std::ranges::all_of(
-      kOfExport, [&](std::string_view name) { return place(name).has_value(); });
-  if (is_export) {
-    basis_ = place("basis");
-    source_ = place("source");
+  const bool is_export = std::ranges::all_of(kOfExport, [&](std::string_view name) {
+    return std::ranges::find(record.cells, name) != record.cells.end();
+  });
+  if (is_export) members_ = record.cells;
+  for (const std::string& column : record.cells) {
+    fields_.push_back(is_export ? std::string(field_of_export(column, ExportedRow()))
+                                : field_of(column));
   }
-  for (const std::string& column : record.cells)
-    fields_.push_back(is_export ? std::string(field_of_export(column, true)) : field_of(column));
   has_clock_ = std::ranges::find(fields_, kDate) != fields_.end();
   std::string header;
   auto append = [&header, is_first = true](std::string_view name) mutable {
@@ -69,6 +66,7 @@ std::string ShopRows::header_of(const Record& record) {
     append(name);
   }
   if (has_clock_) append(kMeasuredAt);
+  if (is_export) append(kDesignation);
   for (const auto& [field, value] : options_.constants) {
     if (std::ranges::find(fields_, field) == fields_.end()) append(field);
   }
@@ -99,7 +97,7 @@ Result<void> ShopRows::convert_row(const Record& record, std::string& rows) {
         ErrorCode::CsvMalformed, record.line,
         fmt::format("has {} cells, and the header has {}", record.cells.size(), fields_.size()));
   }
-  TRY(check_export(record));
+  TRY(read_export(record));
   bool is_first = true;
   std::size_t inside = 0;  // line ends in cells that are kept
   const auto append = [&](std::string_view value) {
@@ -110,9 +108,7 @@ Result<void> ShopRows::convert_row(const Record& record, std::string& rows) {
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     const std::string& field = fields_[i];
     std::string_view value = bare(record.cells[i]);
-    const bool is_limit = std::ranges::any_of(
-        kLimitsOfExport, [&field](const auto& limit) { return limit.second == field; });
-    if (is_limit && !has_drawn_limits_) value = {};
+    if (!members_.empty() && field_of_export(members_[i], exported_).empty()) value = {};
     if (field.empty() || field == kDate || field == kTime) continue;
     if (field != kMeasuredAt || value.empty()) {
       append(value);
@@ -127,6 +123,7 @@ Result<void> ShopRows::convert_row(const Record& record, std::string& rows) {
         record, fmt::format("{} {}", bare(*cell(record, kDate)), time ? bare(*time) : "00:00")));
     append(at);
   }
+  if (!members_.empty()) append(exported_.designation);
   for (const auto& [field, value] : options_.constants) {
     if (std::ranges::find(fields_, field) == fields_.end()) append(value);
   }

@@ -13,8 +13,9 @@ struct ShopCsvOptions {
   Encoding encoding = Encoding::Detected;
   Words columns{};    ///< the table's name of a column, the field it is; empty: it is left out
   Words constants{};  ///< a field and its value, for every row
-  std::optional<TimeZone> zone{};  ///< of times without an offset
-  bool leaves_out_others = false;  ///< columns that are no field and that `columns` lacks
+  std::optional<TimeZone> zone{};    ///< of times without an offset
+  bool leaves_out_others = false;    ///< columns that are no field and that `columns` lacks
+  aqdef::LimitsOfClass limits_of{};  ///< null: limits of a class are not compared with the tables
 };
 
 /// Converts a table of a gauge or a spreadsheet to CSV for /v1/measurements: UTF-8, `;` between the
@@ -23,8 +24,9 @@ struct ShopCsvOptions {
 /// Accepts `sep=;` before the header, `;`, a tab or `,` between the cells, empty columns and rows,
 /// surrounding blanks, names in upper or lower case, and local times. An exported list of
 /// measurements is accepted too: computed fields are ignored, and the limits of a class are read as
-/// the class. A table may have `date` and `time` (by `columns`) instead of measured_at. Uses
-/// bounded memory; a row has at most 1 MiB. Unusable after an error.
+/// the class, which must give the same limits here. A table may have `date` and `time` (by
+/// `columns`) instead of measured_at. Uses bounded memory; a row has at most 1 MiB. Unusable after
+/// an error.
 class ShopRows {
  public:
   /// @param first, again two readers of one table: `first` only detects the encoding.
@@ -46,8 +48,8 @@ class ShopRows {
   /// The field of a column: empty if it is left out or unknown.
   std::string field_of(std::string_view column) const;
   std::string header_of(const Record& record);
-  /// @errors CsvMalformed: it is not of a gauge.
-  Result<void> check_export(const Record& record);
+  /// @errors those of read_exported.
+  Result<void> read_export(const Record& record);
   Result<void> convert_row(const Record& record, std::string& rows);
   Result<std::string> measured_at(const Record& record, std::string_view text) const;
   const std::string* cell(const Record& record, std::string_view field) const;
@@ -58,9 +60,8 @@ class ShopRows {
   std::string header_;
   std::vector<std::string> fields_;   ///< of the columns; empty: left out
   bool has_clock_ = false;            ///< date and time are in separate columns
-  std::optional<std::size_t> basis_;  ///< of an export: the columns that decide
-  std::optional<std::size_t> source_;
-  bool has_drawn_limits_ = true;  ///< the row of an export that is converted
+  std::vector<std::string> members_;  ///< of the columns of an export; else empty
+  ExportedRow exported_;              ///< the row of an export that is converted
 };
 
 }  // namespace fitgauge::sheet

@@ -94,8 +94,8 @@ Result<FileRows> read_file_rows(const aqdef::MeasurementOptions& options,
   } else if (qif::is_qif(file_name)) {
     TRY(append_qif(options, file, rows));
   } else if (sheet::is_ndjson(file_name)) {
-    auto records =
-        TRY(sheet::NdjsonRows::open(file.from_begin(), file.from_begin(), options.encoding));
+    auto records = TRY(sheet::NdjsonRows::open(file.from_begin(), file.from_begin(),
+                                               options.encoding, options.limits_of));
     TRY(append_all(records, rows));
   } else {
     auto table = TRY(sheet::ShopRows::open(file.from_begin(), file.from_begin(), options));

@@ -162,7 +162,14 @@ class Taking(Folders):
                     {"nominal_mm": 8, "feature": "hole", "upper_um": 5, "measured_mm": "8.0001", "order": "WO"},
                     {"designation": "25 g6", "measured_mm": "24.99", "rule": "guard_band", "uncertainty_um": "0.8", "coverage_factor": "1.5"},
                     {"designation": "25 H7", "measured_mm": "25.01", "rule": "conformance", "uncertainty_um": 1, "probability": "0.9",
-                     "temperature_c": 23, "part_material": "steel", "scale_temperature_c": "21.5", "scale_expansion_um_per_m_k": 8}):
+                     "temperature_c": 23, "part_material": "steel", "scale_temperature_c": "21.5", "scale_expansion_um_per_m_k": 8},
+                    {"designation": "25 H7(E)", "measured_mm": "25.5", "confirmed": True, "go_gauge": "passes"},
+                    {"nominal_mm": 3, "quantity": "radius", "upper_um": 100, "lower_um": -100, "measured_mm": 3.05, "inside_corner": True},
+                    {"quantity": "position", "nominal_mm": 10, "measured_mm": "-10.01"},
+                    {"quantity": "distance", "measured_mm": 4},
+                    *({"designation": name, "measured_mm": value} for name, value in (
+                        ("M10-6g", "8.95"), ("R5 ISO 2768-m", "5.1"), ("C2 ISO 2768-m", "2.1"), ("25 ISO 2768-m", "25.1"))),
+                    {"designation": "25 ISO 2768-m", "measured_mm": "25.1", "feature": "hole"}):
             self.assertEqual(first.measure(row).status, 201, row)
         # Judged by a gauge in use: the record says its uncertainty.
         self.assertEqual(first.measure({"designation": "25 H7", "measured_mm": "25.02", "part_id": "é \t\\", "order": ""}).status, 201)
@@ -192,8 +199,8 @@ class Taking(Folders):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertEqual(plain(fourth), plain(first))
         path.write_bytes(records + b'{"designation":"25 H7","measured_mm":25.01}\n{"measured_mm":"\n')
-        self.assertIn("all.jsonl:8:", (done := measure()).stderr + done.stdout)
-        self.assertEqual(len(fourth.stored()), 6)
+        self.assertIn("all.jsonl:17:", (done := measure()).stderr + done.stdout)
+        self.assertEqual(len(fourth.stored()), 15)
         path.write_bytes(records.replace(b'"source":"gauge"', b'"source":"simulation"', 1))
         self.assertIn("line 1 is simulated", measure("--again").stderr)
         self.assertEqual(measure("--set", "machine=M1").returncode, 4)
@@ -204,6 +211,29 @@ class Taking(Folders):
         self.drop("simulated.csv", header + end + rows.replace(b",gauge,", b",simulation,", 1))
         self.wait(lambda: "simulated.csv" in self.files("failed"))
         self.assertIn("line 2 is simulated", (self.folder / "failed" / "simulated.csv.error.txt").read_text())
+
+    def test_an_exported_row_is_refused_where_it_would_become_another(self):
+        first, second = self.daemon().start(), self.daemon().start()
+        self.assertEqual(first.request("PUT", "/v1/tables/hole/classes/H7", {
+            "rows": [{"over_mm": 24, "up_to_mm": 30, "upper_um": 15, "lower_um": -3}]}).status, 201)
+        for row in ({"designation": "25 H7", "measured_mm": "25.018"}, {"designation": "25 g6", "measured_mm": "24.99"}):
+            self.assertEqual(first.measure(row).status, 201)
+        corrected = first.stored()[1]["id"]
+        self.assertEqual(first.post(f"/v1/measurements/{corrected}/corrections", {"measured_mm": "24.985", "reason": "slip"}).status, 201)
+        self.connect(second)
+        for name, kind, line in (("csv", "text/csv", 2), ("ndjson", "application/x-ndjson", 1)):
+            path = self.root / f"rows.{name}"
+            for query, what in (("tolerance_class=H7", f"line {line} has 24.997 mm in lower_limit_mm, but H7 of 25 mm gives 25 mm here"),
+                                ("tolerance_class=g6", f"line {line} is a correction of {corrected}: remove")):
+                path.write_bytes(first.get(f"/v1/measurements?{query}", Accept=kind).body)
+                done = subprocess.run([FITGAUGE, "import", path, "--server", f"http://127.0.0.1:{second.port}", "--state", self.root / "state",
+                                       *(["--encoding", "auto"] if name == "csv" else [])], capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 5, done.stdout + done.stderr)
+                self.assertIn(what, done.stderr)
+                self.drop(f"{query}.{name}", path.read_bytes())
+                self.wait(lambda: f"{query}.{name}" in self.files("done") + self.files("failed"))
+                self.assertIn(what, (self.folder / "failed" / f"{query}.{name}.error.txt").read_text())
+        self.assertEqual(second.stored(), [])
 
     def test_a_folder_that_is_away_comes_back(self):
         daemon = self.daemon().start()

@@ -219,7 +219,7 @@ class Qif(Folders):
             "angle": (DOCUMENT.replace("WidthCharacteristicMeasurement", "AngleCharacteristicMeasurement"), "which is not a measurement"),
             "number": (DOCUMENT.replace("7.9955", "7.99.55"), "line 28 has the value '7.99.55', which is not a length"),
             "item": (DOCUMENT.replace("<CharacteristicItemId>6<", "<CharacteristicItemId>66<"), "without an item in the document"),
-            "class": (class_with("<MaxValue>25.03</MaxValue>"), "whose MaxValue is 25.021 mm, but the document has 25.03 mm"),
+            "class": (class_with("<MaxValue>25.03</MaxValue>"), "has 25.03 mm in MaxValue, but H7 of 25 mm gives 25.021 mm"),
             "unit": (DOCUMENT.replace("<Value>7", '<Value linearUnit="inch">7'), "has a value in 'inch'"),
             "units": (DOCUMENT.replace("0.001<", "0.3048<"), "without a known unit"),
             "time": (DOCUMENT.replace("2026-11-20T08:00:00<", "2026-03-29T02:30:00<"), "2026-03-29T02:30:00"),

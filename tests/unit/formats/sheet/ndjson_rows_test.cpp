@@ -9,7 +9,7 @@ std::string read_all(std::string_view text, std::size_t most) {
   const Read pieces = [read = read_text(text), most](std::span<char> into) {
     return read(into.first(std::min(most, into.size())));
   };
-  auto rows = NdjsonRows::open({}, pieces, Encoding::Utf8);
+  auto rows = NdjsonRows::open({}, pieces, Encoding::Utf8, {});
   std::string out;
   for (;;) {
     const auto more = rows->append(out);
@@ -21,10 +21,11 @@ std::string read_all(std::string_view text, std::size_t most) {
 TEST_CASE("records come as they are given, whatever the pieces") {
   const std::string given = "{\"measured_mm\":25}\n\n{\"comment\":\"\xC3\x98\"}";
   const std::string exported =
-      "\n{\"id\":\"m1\",\"source\":\"gauge\",\"basis\":\"iso286\",\"verdict\":\"good\",\"measured_"
-      "mm\":25}\n";
+      "\n{\"id\":\"m1\",\"source\":\"gauge\",\"basis\":\"iso286\",\"received_at\":\"2026-11-20T07:"
+      "00:00Z\","
+      "\"measured_mm\":25}\n";
   const std::string simulated =
-      "{}\n{\"id\":\"m1\",\"source\":\"simulation\",\"basis\":\"iso286\",\"verdict\":\"good\"}\n";
+      "{}\n{\"id\":\"m1\",\"source\":\"simulation\",\"basis\":\"iso286\",\"received_at\":\"\"}\n";
   for (const std::size_t most : {1U, 2U, 7U, 1000U}) {
     CHECK(read_all(given, most) == given);
     CHECK(read_all(exported, most) == "\n{\"measured_mm\":25}\n");
