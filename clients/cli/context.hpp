@@ -88,6 +88,12 @@ struct Context {
     note(fmt::format(format, std::forward<Arguments>(arguments)...));
   }
 
+  /// Prints the warnings of a response, also with --json: scripts show standard error to people.
+  void note_warnings(const JsonValue& document) const {
+    for (const JsonValue& warning : document.member("warnings").items)
+      note("{}", warning.text_of("detail"));
+  }
+
   /// Sends a request once. @errors also those of a response that is no success.
   Outcome<Answer> send(const Request& request) const {
     return expect_ok(client.send(request), client.url());

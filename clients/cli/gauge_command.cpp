@@ -319,6 +319,7 @@ Outcome<ExitCode> show_verdict(const Context& context, const Answer& answer) {
   } else {
     context.print("{}", format_verdict(document, context.out));
   }
+  context.note_warnings(document);
   return verdict_exit_code(document.text_of("verdict"));
 }
 

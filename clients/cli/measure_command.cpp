@@ -103,21 +103,53 @@ class Upload {
 
   /// The input at the end of an earlier run, or at its first row.
   Outcome<CsvChunks> find_place() {
-    const auto& last = journal_.state();
-    if (options_.again || !last) return begin_session();
-    if (last->server != context_.client.url()) return other_server(*last);
+    const auto& newest = journal_.state();
+    if (options_.again || !newest) return begin_session();
+    if (newest->server != context_.client.url()) return other_server(*newest);
+    auto last = TRY(newest_kept(*newest));
     auto chunks = open_input();
     if (!chunks) return chunks;
-    const auto match = TRY(chunks->skip_to(last->stored));
-    if (match == CsvMatch::RowHasGrown) return row_has_grown(last->stored.lines);
+    const auto match = TRY(chunks->skip_to(last.stored));
+    if (match == CsvMatch::RowHasGrown) return row_has_grown(last.stored.lines);
     if (match == CsvMatch::Same) {
-      state_ = *last;
+      state_ = std::move(last);
       state_.complete = false;
       return chunks;
     }
-    const bool is_done_with = last->complete || (!last->pending && last->counts.sum() == 0);
-    if (!is_done_with || options_.input == "-") return changed(last->stored.lines);
+    const bool is_done_with = newest->complete || (!newest->pending && newest->counts.sum() == 0);
+    if (!is_done_with || options_.input == "-") return changed(last.stored.lines);
     return begin_session();
+  }
+
+  /// The newest state whose measurements the service still has: a restored backup lacks those that
+  /// were stored after it.
+  Outcome<MeasureState> newest_kept(const MeasureState& newest) {
+    if (TRY(is_kept(newest.last_id))) return newest;
+    std::string lost = newest.last_id;
+    auto states = TRY(journal_.states());
+    for (; !states.empty(); states.pop_back()) {
+      const MeasureState& state = states.back();
+      if (state.last_id == lost) continue;
+      if (TRY(is_kept(state.last_id))) break;
+      lost = state.last_id;
+    }
+    if (states.empty()) return newest;
+    context_.note(
+        "{}: the service lacks {}: a backup was restored. The rows after line {} are sent "
+        "again",
+        name_, newest.last_id, states.back().stored.lines);
+    return std::move(states.back());
+  }
+
+  /// Whether the service has a measurement, as far as this key may know.
+  Outcome<bool> is_kept(const std::string& id) {
+    if (id.empty()) return true;
+    const auto answer = send_until_answered(
+        context_.client, {.target = "/v1/measurements/" + percent_encoded(id)},
+        Backoff(context_.retry_budget), [this](const Failure& f, auto wait) { notice(f, wait); });
+    if (!answer) return answer.error();
+    constexpr long kNotFound = 404;
+    return answer->status != kNotFound;
   }
 
   Outcome<std::optional<CsvChunk>> pending_chunk(CsvChunks& chunks) {
@@ -166,12 +198,12 @@ class Upload {
     read_known(document.member("verdicts"), counts);
     state_.counts += counts;
     state_.stored = chunk.end;
+    state_.last_id = document.text_of("last_id");
     state_.pending.reset();
     rows_sent_ += counts.sum();
-    if (context_.json) {
-      line_.clear();
-      context_.print_document(answer->body);
-    }
+    if (context_.json || document.find("warnings") != nullptr) line_.clear();
+    if (context_.json) context_.print_document(answer->body);
+    context_.note_warnings(document);
     show_progress();
     return {};
   }
@@ -298,7 +330,8 @@ std::string explain_rows(const Problem& problem, const std::string& input,
 ExitCode worst_verdict(const VerdictCounts& counts) {
   if (counts.reject > 0) return ExitCode::Reject;
   if (counts.rework > 0) return ExitCode::Rework;
-  return counts.indeterminate > 0 ? ExitCode::Indeterminate : ExitCode::Good;
+  const bool is_judged = counts.good > 0 || counts.unjudged == 0;
+  return counts.indeterminate > 0 || !is_judged ? ExitCode::Indeterminate : ExitCode::Good;
 }
 
 void add_import(CLI::App& app, Action& chosen) {

@@ -131,6 +131,7 @@ struct MeasureState {
   std::optional<CsvPosition> pending{};  ///< the chunk up to here was sent, its fate is not known
   VerdictCounts counts{};
   bool complete = false;  ///< the input had ended there
+  std::string last_id{};  ///< of the last stored measurement; empty: unknown, or none
 
   friend bool operator==(const MeasureState&, const MeasureState&) = default;
 };
@@ -164,6 +165,8 @@ class MeasureJournal {
   /// Empty if there is no file.
   const std::string& path() const { return path_; }
   const std::optional<MeasureState>& state() const { return state_; }
+  /// All states of this input, oldest first. @errors LocalFile
+  Outcome<std::vector<MeasureState>> states() const;
 
   /// Appends a state and flushes it to the disk. @errors LocalFile
   Outcome<void> append(const MeasureState& state);
@@ -235,7 +238,8 @@ bool is_converted(const MeasureOptions& options);
 std::string explain_rows(const Problem& problem, const std::string& input,
                          const std::function<std::uint64_t(std::uint64_t)>& line_of);
 
-/// The worst verdict that was given: reject, rework, indeterminate, good.
+/// The worst verdict that was given: reject, rework, indeterminate, good. Indeterminate if none
+/// was.
 ExitCode worst_verdict(const VerdictCounts& counts);
 
 }  // namespace fitgauge::cli

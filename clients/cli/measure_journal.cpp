@@ -61,6 +61,7 @@ void members(auto& v, MeasureState& state) {
   v.member("pending", state.pending, PlaceOrNull{});
   v.member("verdicts", state.counts, api::Object<VerdictCounts>({}, api::schema::Others::Allowed));
   v.member("complete", state.complete);
+  v.optional("last_id", state.last_id);  // absent in the state of an older version
 }
 
 VerdictCounts& VerdictCounts::operator+=(const VerdictCounts& other) {
@@ -111,6 +112,17 @@ Outcome<void> MeasureJournal::read_last_line() {
   if (state_) return {};
   return Failure{ExitCode::LocalFile,
                  path_ + ": is not a state of fitgauge: give another file with --state"};
+}
+
+Outcome<std::vector<MeasureState>> MeasureJournal::states() const {
+  const auto text = TRY(read_file(path_));
+  std::vector<MeasureState> states;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    if (auto state = parse_state(rest.substr(0, end))) states.push_back(*std::move(state));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return states;
 }
 
 Outcome<void> MeasureJournal::append(const MeasureState& state) {

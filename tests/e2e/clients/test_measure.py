@@ -48,6 +48,33 @@ class Measure(ClientTest):
         self.assert_runs(0, "measure", "b.csv", "--again")
         self.assertEqual(len(self.stored_parts("B-")), 6)
 
+    def test_rows_that_a_restore_lost_are_sent_again_and_no_others(self):
+        daemon = Daemon().start()
+        self.addCleanup(daemon.cleanup)
+        client = Client(f"127.0.0.1:{daemon.port}")
+        self.addCleanup(client.cleanup)
+        daemon.listen = f"127.0.0.1:{daemon.port}"
+        client.write("night.csv", HEADER + rows(10, "P"))
+        self.assertEqual(client.run("import", "night.csv").returncode, 0)
+        copy = daemon.folder / "copy.db"
+        self.assertEqual(daemon.command("backup", copy).returncode, 0)
+        client.write("night.csv", HEADER + rows(13, "P"))
+        self.assertEqual(client.run("import", "night.csv").returncode, 0)
+        self.assertEqual(daemon.stop(), 0)
+        for file in daemon.data.glob("fitgauge.db*"):
+            file.unlink()
+        copy.rename(daemon.database)
+        daemon.start()
+        done = client.run("import", "night.csv")
+        self.assertEqual((done.returncode, done.stdout_text), (0, "13 rows: 13 good, 0 rework, 0 reject\n"))
+        self.assertIn("The rows after line 11 are sent again", done.stderr_text)
+        self.assertEqual([record["part_id"] for record in daemon.stored()], [f"P{i}" for i in range(13)])
+        self.assertIn("--again", client.run("import", "night.csv").stderr_text)
+
+    def test_unjudged_values_are_not_good(self):
+        self.client.write("u.csv", "quantity;measured_mm;part_id\ndistance;4;U-1\n")
+        self.assert_runs(3, "import", "u.csv", "--exit-verdict")
+
     def test_equal_chunks_are_all_stored(self):
         self.client.write("c.csv", HEADER + "25;H7;25,013;C-1\n" * 6)
         self.assert_runs(0, "measure", "c.csv", "--chunk", "2")
