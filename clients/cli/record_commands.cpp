@@ -65,10 +65,12 @@ Outcome<ExitCode> run_summary(const Context& context, const RecordQuery& query) 
     const JsonValue& verdicts = group.member("verdicts");
     const std::string_view value = group.text_of(group_by);
     const std::string_view scatter = group.text_of("standard_deviation_mm");
-    context.print("{}: {} values, {} good, {} rework, {} reject, {} indeterminate\n",
+    const std::string_view unjudged = verdicts.text_of("unjudged");
+    context.print("{}: {} values, {} good, {} rework, {} reject, {} indeterminate{}{}\n",
                   value.empty() ? "(none)" : value, group.text_of("count"),
                   verdicts.text_of("good"), verdicts.text_of("rework"), verdicts.text_of("reject"),
-                  verdicts.text_of("indeterminate"));
+                  verdicts.text_of("indeterminate"), unjudged.empty() ? "" : ", ",
+                  unjudged.empty() ? "" : fmt::format("{} unjudged", unjudged));
     context.print("    mean {} mm, s {} mm, {} to {} mm\n", group.text_of("mean_mm"),
                   scatter.empty() ? "-" : scatter, group.text_of("min_mm"),
                   group.text_of("max_mm"));
@@ -113,6 +115,11 @@ struct NoteOptions {
 Outcome<ExitCode> run_note(const Context& context, const NoteOptions& options) {
   const std::string target = "/v1/measurements/" + percent_encoded(options.id) + "/notes";
   if (options.cause.empty() && options.measure.empty() && options.text.empty()) {
+    if (!options.operator_name.empty()) {
+      return Failure{ExitCode::Usage,
+                     "a note must have a cause, an action or a text: add --cause, --action or "
+                     "--text, or remove --operator to show the notes"};
+    }
     const auto notes = TRY(get_document(context, target));
     if (context.json) return ExitCode::Good;
     for (const JsonValue& note : notes.member("notes").items)

@@ -253,10 +253,24 @@ class Records(ClientTest):
         self.assert_fails(4, "correct", wrong, "x", "--reason", "again")
         self.assert_fails(4, "correct", wrong, "25.003")
 
+    def test_a_summary_counts_unjudged_values(self):
+        self.daemon.measure({"quantity": "distance", "measured_mm": 4, "characteristic": "unjudged-1"})
+        self.assertIn("1 values, 0 good, 0 rework, 0 reject, 0 indeterminate, 1 unjudged",
+                      self.assert_runs(0, "summary", "--characteristic", "unjudged-1"))
+
+    def test_warnings_of_the_service_are_shown(self):
+        self.daemon.request("PUT", "/v1/gauges-in-use/GX", {"calibration_due": "2020-01-01"})
+        for arguments in (("gauge", "25H7", "25.01", "--record", "--gauge", "GX"),
+                          ("import", self.client.write("gx.csv", "designation;measured_mm;gauge\n25 H7;25,01;GX\n"))):
+            done = self.client.run(*arguments)
+            self.assertEqual(done.returncode, 0, done.stderr_text)
+            self.assertRegex(done.stderr_text, r"fitgauge: .*GX.*2020-01-01")
+
     def test_an_action_is_given_by_one_of_its_names(self):
         record = self.daemon.measure({"designation": "25 H7", "measured_mm": 25.03}).json["id"]
         self.assert_fails(4, "note", record, "--action", "b", "--measure", "a")
         self.assertEqual(self.daemon.get(f"/v1/measurements/{record}/notes").json["notes"], [])
+        self.assertIn("--cause, --action or --text", self.assert_fails(4, "note", record, "--operator", "Kim"))
         self.assert_runs(0, "note", record, "--measure", "a")
         self.assertEqual(self.daemon.get(f"/v1/measurements/{record}/notes").json["notes"][0]["measure"], "a")
 
