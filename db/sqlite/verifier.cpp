@@ -8,7 +8,6 @@ namespace {
 /// Instructions of SQLite's machine between two looks at the stop flag.
 constexpr int kInstructions = 10'000;
 
-constexpr std::size_t kMostFindings = 100;
 constexpr std::size_t kPage = 10'000;
 constexpr std::size_t kScrubPage = 1'000;
 
@@ -71,7 +70,7 @@ std::optional<std::string> Verifier::first_altered_row(const std::function<bool(
 }
 
 void Verifier::check_file() {
-  sql::Statement integrity(session_.connection, "PRAGMA integrity_check");
+  sql::Statement integrity(session_.connection, "PRAGMA integrity_check(1000000)");
   for (sql::Rows rows = integrity.query(); rows.next();) {
     if (auto finding = rows.get<std::string>(0); finding != "ok") note(std::move(finding));
   }
@@ -183,8 +182,6 @@ void Verifier::check_measurement(const MeasurementRow& row) {
   ++report_.measurements;
 }
 
-void Verifier::note(std::string finding) {
-  if (report_.findings.size() < kMostFindings) report_.findings.push_back(std::move(finding));
-}
+void Verifier::note(std::string finding) { report_.findings.push_back(std::move(finding)); }
 
 }  // namespace fitgauge::store

@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import re
 import sqlite3
 import threading
 import unittest
@@ -150,6 +151,14 @@ class Altered(StorageTest):
         self.assertIn("measurement 17 was altered", found)
         self.assertLess(found.index("17"), found.index("40"))
         self.assertIn("measurements_are_not_updated", found)
+
+    def test_every_altered_row_is_named_and_counted(self):
+        daemon = self.stopped_with(150)
+        alter(daemon.database, "DROP TRIGGER measurements_are_not_updated", "UPDATE measurements SET part_id = 'SN-2'")
+        lines = self.findings(daemon).splitlines()
+        self.assertEqual(sum(re.match(r"measurement \d+ was altered", line) is not None for line in lines), 150)
+        count = next(line for line in lines if " measurements checked, " in line)
+        self.assertEqual(count, f"150 measurements checked, {lines.index(count)} findings")
 
     def test_a_verdict_that_does_not_follow_is_named(self):
         daemon = self.stopped_with(5)
