@@ -39,6 +39,20 @@ std::optional<std::string> bytes_of(const Descriptor& file) {
   return bytes;
 }
 
+/// Readers decode `_x0041_` to A, so the first underscore of such a text becomes `_x005F_`.
+std::string escaped(std::string_view text) {
+  constexpr std::size_t kLength = 7;
+  std::string out;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const std::string_view code = text.substr(at, kLength);
+    const bool is_code =
+        code.size() == kLength && code.starts_with("_x") && code.ends_with('_') &&
+        code.substr(2, 4).find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos;
+    out += is_code ? "_x005F_" : text.substr(at, 1);
+  }
+  return out;
+}
+
 }  // namespace
 
 Workbook::Workbook()
@@ -46,7 +60,7 @@ Workbook::Workbook()
 
 void Workbook::write(std::string_view text, lxw_format* as) {
   const auto column = static_cast<lxw_col_t>(cells_ - 1);
-  took(worksheet_write_string(sheet_, row_, column, std::string(text).c_str(), as));
+  took(worksheet_write_string(sheet_, row_, column, escaped(text).c_str(), as));
 }
 
 void Workbook::number(double value, lxw_format* as) {

@@ -38,6 +38,7 @@ class Sheet:
                 text = value.text if value is not None else "".join(cell.find(MAIN + "is").itertext())
                 if cell.get("t") == "s":
                     text = shared[int(text)]
+                text = re.sub("_x([0-9A-Fa-f]{4})_", lambda code: chr(int(code[1], 16)), text)  # as spreadsheets do
                 cells[column] = (cell.get("t", "n"), text, styles[int(cell.get("s", 0))])
             self.rows.append(cells)
         names = {text: column for column, (_, text, _) in self.rows[0].items()}
@@ -58,7 +59,7 @@ class Files(DaemonTest):
     def test_a_workbook_says_what_the_csv_says(self):
         self.daemon.measure([
             {"designation": "25 H7", "measured_mm": 25.013123, "part_id": "=1+1", "characteristic": "+A1", "order": "-1",
-             "operation": "@SUM(A1)", "comment": "a \"b\", <c>;\nd & é", "operator": "Ωmega", "temperature_c": 21.5,
+             "operation": "@SUM(A1)", "comment": "a \"b\", <c>;\nd & é _x0041_", "operator": "Ωmega", "temperature_c": 21.5,
              "measured_at": "2026-11-20T07:00:00.5Z", "rule": "guard_band", "uncertainty_um": 0.8},
             {"feature": "shaft", "nominal_mm": 8, "upper_um": 0, "measured_mm": 7.9955, "part_id": "0042",
              "measured_at": "1899-01-01T00:00:00Z"}])
