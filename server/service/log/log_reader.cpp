@@ -248,8 +248,8 @@ std::vector<std::string> LogCheck::finish() {
 
 std::string LogCheck::head_text() {
   if (facts_.is_partial) {
-    return fmt::format("{}: {} corrections by the centre, which has its log", facts_.name,
-                       partial_rows_);
+    return fmt::format("{}: {} corrections, each compared with its own hash: their log is not here",
+                       facts_.name, partial_rows_);
   }
   std::string text = fmt::format("{}: {} {}, root {}", facts_.name, frontier_.size(), facts_.leaves,
                                  tlog::to_base64(frontier_.root()));
