@@ -54,8 +54,8 @@ std::size_t drop_body(char*, std::size_t, std::size_t size, void*) { return size
 
 Result<int> run_backup(const Config& config, const std::string& file) {
   const auto app = TRY(attach(config));
-  TRY(app->backup(file));
-  std::cout << "backup written to " << file << '\n';
+  const std::string covered = TRY(app->backup(file));
+  std::cout << "backup written to " << file << ": " << covered << '\n';
   return 0;
 }
 

@@ -8,7 +8,7 @@
 namespace fitgauge::app {
 namespace {
 
-constexpr std::chrono::seconds kPatienceForCheckpoint{5};
+constexpr int kMostGlances = 100;  ///< at the checkpoint that a running daemon will sign
 constexpr std::chrono::milliseconds kBetweenGlances{50};
 
 /// Whether limits of a designation of another standard match it, if this build has that edition.
@@ -54,8 +54,8 @@ std::int64_t origin_of(std::string_view note, const LogService::Logs& logs) {
 }
 
 /// Returns the number of measurements that a checkpoint covers.
-std::uint64_t size_of(const Result<std::optional<std::string>>& note) {
-  const auto checkpoint = tlog::parse_checkpoint(note && *note ? **note : std::string());
+std::uint64_t size_of(const std::string& note) {
+  const auto checkpoint = tlog::parse_checkpoint(note);
   return checkpoint ? checkpoint->size : 0;
 }
 
@@ -193,22 +193,36 @@ Result<std::optional<Timestamp>> Application::newest_measurement() const {
       [](const Stores& stores) { return stores.measurements.newest_received_at(); });
 }
 
-Result<void> Application::backup(const std::filesystem::path& file) const {
+Result<std::string> Application::backup(const std::filesystem::path& file) const {
   // Reads the checkpoint first: the copy is made after it, and so has everything it covers. A
   // running daemon signs its rows within a second.
   const auto rows = database_->readers().wait(
       [](const Stores& stores) { return stores.measurements.log_size(); });
-  const auto until = std::chrono::steady_clock::now() + kPatienceForCheckpoint;
-  auto checkpoint = read_small_file(directory_ / kCheckpointFile);
-  while (rows && size_of(checkpoint) < static_cast<std::uint64_t>(*rows) &&
-         std::chrono::steady_clock::now() < until) {
+  const auto wanted = static_cast<std::uint64_t>(rows ? *rows : 0);
+  const auto newest = [this] {
+    const auto note = read_small_file(directory_ / kCheckpointFile);
+    return note && *note ? **note : std::string();
+  };
+  std::string checkpoint = newest();
+  for (int glance = 0; size_of(checkpoint) < wanted && glance < kMostGlances; ++glance) {
     std::this_thread::sleep_for(kBetweenGlances);
-    checkpoint = read_small_file(directory_ / kCheckpointFile);
+    checkpoint = newest();
   }
   TRY(database_->backup(file));
-  if (!checkpoint || !*checkpoint) return {};
-  auto beside = file;
-  return keep_file(beside += ".checkpoint", **checkpoint, true);
+  if (!checkpoint.empty()) {
+    auto beside = file;
+    TRY(keep_file(beside += ".checkpoint", checkpoint, true));
+  }
+  const std::uint64_t covered = size_of(checkpoint);
+  if (checkpoint.empty() && wanted > 0)
+    return "it has no checkpoint: the service signs its measurements at the next start";
+  if (covered < wanted) {
+    return fmt::format(
+        "its checkpoint covers {} of {} measurements: the service signs the others at the next "
+        "start",
+        covered, wanted);
+  }
+  return fmt::format("its checkpoint covers the {} measurements stored before it", covered);
 }
 
 RevisionIntake Application::revision_intake(Tell tell) { return {records(), std::move(tell)}; }
@@ -287,6 +301,14 @@ Result<Application::Verification> Application::verify(
     const bool is_shown = origin != LogReader::kChanges || has_changes;
     if (is_shown && origin != 0) verification->head += '\n';
     if (is_shown) verification->head += check.head_text();
+    const auto& facts = logs->at(origin);
+    for (const auto& [place, note] : checkpoints) {
+      const auto known = tlog::parse_checkpoint(note);
+      if (!known || known->size == 0) continue;
+      if (known->origin != facts.name && !facts.former.contains(known->origin)) continue;
+      verification->head +=
+          fmt::format("\n{} covers {} of {} {}", place, known->size, facts.size, facts.leaves);
+    }
     for (std::string& finding : check.finish()) {
       verification->findings.push_back(std::move(finding));
     }

@@ -60,8 +60,9 @@ class Application {
   Result<std::optional<Timestamp>> newest_measurement() const;
 
   /// Writes a consistent copy of the database, and next to it (`FILE.checkpoint`) the newest
-  /// checkpoint, which the copy contains. @errors StorageUnavailable, also if the file exists.
-  Result<void> backup(const std::filesystem::path& file) const;
+  /// checkpoint, which the copy contains. Returns what it covers, in words.
+  /// @errors StorageUnavailable, also if the file exists.
+  Result<std::string> backup(const std::filesystem::path& file) const;
 
   struct Verification {
     std::int64_t measurements = 0;

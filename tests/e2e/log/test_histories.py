@@ -178,6 +178,16 @@ class Folders(Restored):
         daemon.start()
         daemon.wait_for_log("has signed 5 measurements, and the database has 3")
 
+    def test_a_backup_says_what_its_checkpoint_covers(self):
+        daemon = self.made().start()
+        self.store(daemon, "d1 d2")
+        wait_for_size(daemon, 2)
+        daemon.stop()
+        self.assertIn("covers the 2 measurements", daemon.command("backup", daemon.folder / "signed.db").stdout)
+        (daemon.data / "fitgauge.checkpoint").unlink()
+        made = daemon.command("backup", daemon.folder / "unsigned.db")
+        self.assertIn("unsigned.db: it has no checkpoint", made.stdout)
+
     def test_a_first_start_that_is_lost_gives_no_id_twice(self):
         daemon = self.made().start()
         lost = self.store(daemon, "d1 d2 d3")
@@ -251,6 +261,11 @@ class Folders(Restored):
         verified = daemon.command("verify", "--checkpoint", empty)
         self.assertEqual(verified.returncode, 0)
         self.assertIn("covers 0 of them", verified.stdout)
+        one = daemon.folder / "one"
+        one.write_text(wait_for_size(daemon, 1))
+        self.store(daemon, "d2")
+        wait_for_size(daemon, 2)
+        self.assertIn(f"{one} covers 1 of 2 measurements\n", daemon.command("verify", "--checkpoint", one).stdout)
 
     def test_a_copy_of_the_files_beside_the_kept_checkpoint(self):
         daemon = self.made().start()
