@@ -83,7 +83,8 @@ class WebhookEvents(Receivers):
         moved = next_told("propose", self.make(daemon, 8, 6))
         self.assertEqual(moved, daemon.get("/v1/measurements/compensation?characteristic=bore&machine=M1").json)
         next_told("wait", self.make(daemon, 0, 1, machine="M2"), "M2")
-        self.wait_for_kept_position(daemon, 28)
+        for name in ("mes", "other"):
+            self.wait_for_kept_position(daemon, 28, name)
         daemon.kill()
         daemon.start()
         # What was told is not kept: the state comes again with the next value, and is that of M1 alone.
