@@ -7,6 +7,7 @@ import { findings, hashOf, picture } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
 import { holdAll } from './support/hold.mjs';
 import { openAt, page, visit } from './support/plans.mjs';
+import { answer } from './support/reactions.mjs';
 import { scan } from './support/scanner.mjs';
 import { daemon } from './support/stage.mjs';
 
@@ -59,7 +60,7 @@ describe('catalogues of causes and actions', () => {
     await page.evaluate(() => { location.hash = '#/gauge?plan=C-1&part_id=SN-C1'; });
     await page.waitForSelector('.echo .figures');
     await scan(page, '25.040');
-    await page.click('.catalogue >> text=Wrong offset');
+    await answer(page, 'Wrong offset');
     await page.waitForSelector('.catalogue >> text=Offset corrected');
   });
 

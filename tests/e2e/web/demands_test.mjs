@@ -14,10 +14,10 @@ import assert from 'node:assert/strict';
 import { before, beforeEach, describe, it } from 'node:test';
 
 import { close, findings, open, openIn, picture, timer } from './support/browser.mjs';
-import { sleep } from './support/daemon.mjs';
 import { eventually } from './support/eventually.mjs';
 import { hold } from './support/hold.mjs';
-import { known, PAIR_MS, scan } from './support/scanner.mjs';
+import { answer } from './support/reactions.mjs';
+import { known, scan } from './support/scanner.mjs';
 import { begin, browser, daemon, storedSince } from './support/stage.mjs';
 
 describe('what a value demands', () => {
@@ -41,12 +41,7 @@ describe('what a value demands', () => {
   const marks = () => page.$$eval('.tiles-of-plan li', (all) => all.map((tile) => tile.querySelector('.shape')?.dataset.verdict));
   const hasMarks = (...wanted) => eventually(async () => assert.deepEqual(await marks(), wanted));
   const isUp = () => page.waitForSelector('.link[data-state="up"]');
-  const say = async (...texts) => {
-    for (const text of texts) {
-      await page.click(`.choices-of >> text=${text}`);
-      await sleep(PAIR_MS);
-    }
-  };
+  const say = (...texts) => answer(page, ...texts);
   const notes = async () => (await daemon.stored('history=all&notes=shown')).slice(-(await storedSince()).length)
     .map((record) => [record.measured_mm, ...(record.notes ?? []).map((note) => [note.cause, note.measure])]);
 

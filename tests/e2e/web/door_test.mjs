@@ -20,6 +20,7 @@ import { before, beforeEach, describe, it } from 'node:test';
 import { close, findings, open, picture } from './support/browser.mjs';
 import { sleep } from './support/daemon.mjs';
 import { hold } from './support/hold.mjs';
+import { answer } from './support/reactions.mjs';
 import { known, PAIR_MS, scan, scanUnasked, typeSlowly } from './support/scanner.mjs';
 import { begin, browser, daemon, storedSince } from './support/stage.mjs';
 
@@ -81,7 +82,7 @@ describe('the door for keys', () => {
     assert.match(await page.textContent('.reactions .label'), /cause/);
     await page.focus('.reactions input');
     await typeSlowly(page, 'Chip in the bore');
-    await page.click('text=Insert changed');
+    await answer(page, 'Insert changed');
     await page.waitForSelector('.recent .noted');
     assert.equal(await page.textContent('.recent .noted'), 'Chip in the bore → Insert changed');
     await close(page);

@@ -8,6 +8,7 @@ import { before, beforeEach, describe, it } from 'node:test';
 
 import { close, open, openIn } from './support/browser.mjs';
 import { eventually } from './support/eventually.mjs';
+import { answer } from './support/reactions.mjs';
 import { known, scan } from './support/scanner.mjs';
 import { begin, browser, daemon, storedSince } from './support/stage.mjs';
 
@@ -94,7 +95,7 @@ describe('a part that is handled elsewhere', () => {
     await station('E-3');
     await line('25.01');
     await line('40.05');
-    await page.click('.reactions .primary');
+    await answer(page, 'Done');
     await hidden();
     const [, { id }] = await storedOf('E-3', 2);
     await eventually(async () => assert.deepEqual((await daemon.json(`/v1/measurements/${id}/notes`)).notes.map(({ text }) => text), ['Stop, tell the setter']));

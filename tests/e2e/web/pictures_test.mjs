@@ -11,8 +11,9 @@ import { after, before, describe, it } from 'node:test';
 import { isDeepStrictEqual } from 'node:util';
 
 import { close, drawn, launch, open, PATIENCE_MS } from './support/browser.mjs';
-import { Daemon, sleep } from './support/daemon.mjs';
-import { PAIR_MS, scan } from './support/scanner.mjs';
+import { Daemon } from './support/daemon.mjs';
+import { answer } from './support/reactions.mjs';
+import { scan } from './support/scanner.mjs';
 
 const FOLDER = path.join('docs', 'images');
 const WORDS = path.join(FOLDER, 'words.json');
@@ -112,9 +113,7 @@ describe('pictures of the guide', () => {
     await measure('bore-A', '25.0302');
     await verdict('reject');
     await take('reject');
-    await page.click('text=Insert worn');
-    await sleep(PAIR_MS);
-    await page.click('text=Insert changed');
+    await answer(page, 'Insert worn', 'Insert changed');
     await daemon.stop();
     await measure('slot', '8.017');
     await page.waitForSelector('.verdict[data-provisional="away"]');

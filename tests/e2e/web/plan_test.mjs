@@ -13,6 +13,7 @@ import { close, findings, launch, open, picture } from './support/browser.mjs';
 import { Daemon, sleep } from './support/daemon.mjs';
 import { eventually } from './support/eventually.mjs';
 import { patient } from './support/hold.mjs';
+import { answer } from './support/reactions.mjs';
 import { PAIR_MS, scan, scanUnasked } from './support/scanner.mjs';
 
 describe('a plan', () => {
@@ -56,7 +57,7 @@ describe('a plan', () => {
     await line('.02'); // and is not taken before the plan's reaction is done
     assert.match(await page.textContent('#entry-note'), /Not stored.*Stop and tell the setter/);
     assert.equal((await daemon.stored()).length, 1);
-    await page.click('.reactions button');
+    await answer(page, 'Done');
     assert.ok(await page.isHidden('.reactions'));
     await sleep(PAIR_MS);
     await page.keyboard.press('Enter'); // what was typed is still there
@@ -191,7 +192,7 @@ describe('a plan', () => {
     await page.waitForFunction(() => document.querySelector('.echo strong')?.textContent === 'Ø 25 H7');
     await line('25.01');
     assert.match(await page.textContent('#entry-note'), /Stop and tell the setter/);
-    await page.click('.reactions button');
+    await answer(page, 'Done');
     await line('25.01');
     await page.waitForFunction(() => document.querySelector('.recent li.stored'));
     await page.waitForSelector('.link[data-state="up"]');
@@ -215,11 +216,11 @@ describe('a plan', () => {
     assert.deepEqual(await findings(page), []);
     await line('25.01');
     assert.match(await page.textContent('#entry-note'), /Not stored.*cause and action/);
-    await page.click('text=Insert worn');
+    await answer(page, 'Insert worn');
     assert.deepEqual(await buttons(), [['Insert changed', true], ['Scrapped', true]]);
     await page.reload(); // and what was said already stands
     await page.waitForFunction(() => document.querySelector('.echo strong')?.textContent === 'Ø 25 H7');
-    await page.click('text=Insert changed');
+    await answer(page, 'Insert changed');
     assert.ok(await page.isHidden('.reactions'));
     await page.waitForSelector('.recent .noted');
     assert.equal(await page.textContent('.recent .noted'), 'Insert worn → Insert changed');
@@ -227,13 +228,11 @@ describe('a plan', () => {
 
     await daemon.stop(); // the notes wait with their values, in order, also over a reload
     await line('25.04');
-    await page.click('text=Clamped askew');
+    await answer(page, 'Clamped askew');
     await page.fill('[name="measure"]', 'Turned anew');
     await page.press('[name="measure"]', 'Enter');
     await line('25.05');
-    await page.click('text=Insert worn');
-    await sleep(PAIR_MS);
-    await page.click('text=Scrapped');
+    await answer(page, 'Insert worn', 'Scrapped');
     await daemon.start();
     await page.waitForSelector('.link[data-state="up"]');
     const noted = (await daemon.stored('characteristic=seat&notes=only')).map((record) => [record.measured_mm, ...record.notes.map((one) => [one.cause, one.measure, one.operator])]);

@@ -19,6 +19,7 @@ import { afterEach, describe, it } from 'node:test';
 
 import { closeContext, findings, open, openIn, PATIENCE_MS, picture } from './support/browser.mjs';
 import { Daemon, sleep } from './support/daemon.mjs';
+import { answer } from './support/reactions.mjs';
 import { scan } from './support/scanner.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
@@ -277,7 +278,7 @@ describe('a sample', () => {
     await progress(page, '1 of 1 · value 3 of 3');
     const [first, second] = await storedOf('THERE');
     await correct(first, { measured_mm: '25.04' });
-    await page.click('.reactions .primary');
+    await answer(page, 'Done');
     await progress(page, '1 of 1 · value 3 of 3');
     await correct(second, { measured_mm: '25.002', characteristic: 'THERE-other' });
     await progress(page, '1 of 1 · value 2 of 3');
