@@ -134,6 +134,8 @@ constexpr std::optional<Source> source_from_word(std::string_view text) {
 inline constexpr int kTemperatureDecimals = 6;  ///< of a degree Celsius, as Measurement counts them
 inline constexpr int kPicometreDecimals = 6;    ///< of a micrometre
 
+inline constexpr std::string_view kTwoPoint =
+    "LP";  ///< size_operator of a size without a given one
 inline constexpr std::string_view kEnvelopeRequired = "required";
 inline constexpr std::string_view kGoPasses = "passes";  ///< of go_gauge
 inline constexpr std::string_view kGoFails = "fails";

@@ -352,7 +352,7 @@ void MeasurementRowReader::apply_size() {
     report(ErrorCode::FieldMissing, "envelope",
            "go_gauge needs an envelope: give envelope required, or a designation with (E)");
   }
-  if (is_size && !m.size_operator) m.size_operator = kTwoPoint;
+  if (is_size && !m.size_operator) m.size_operator = app::kTwoPoint;
 }
 
 const app::Measurement* MeasurementRowReader::end() {

@@ -6,9 +6,6 @@
 
 namespace fitgauge::api {
 
-/// The size operator of a size that none was given for.
-inline constexpr std::string_view kTwoPoint = "LP";
-
 /// A field of a measurement in a request, whichever format it comes in.
 struct RowField {
   enum Index : std::size_t {

@@ -69,7 +69,8 @@ std::string measured_text(const app::Measurement& m) {
 /// `; GG, 4 points from 22.5°, form 2.1 µm, factor 1; envelope verified`: the method of measuring.
 std::string taken_text(const app::Measurement& m) {
   std::string text = m.inside_corner ? "; inside corner" : "";
-  if (m.size_operator && m.size_operator != "LP") text += fmt::format("; {}", *m.size_operator);
+  if (m.size_operator && m.size_operator != app::kTwoPoint)
+    text += fmt::format("; {}", *m.size_operator);
   if (m.points) text += fmt::format(", {} points", *m.points);
   if (m.start_angle) text += fmt::format(" from {}\u00b0", format_decimal(*m.start_angle, 6));
   if (m.form) text += fmt::format(", form {} \u00b5m", format_um(Length::nanometres(*m.form)));
@@ -104,10 +105,7 @@ std::string uncertainty_text(const app::Measurement& m) {
   const Length u = known.u;
   if (u == Length()) return "";
   constexpr std::int64_t kOne = 1'000'000;
-  const std::int64_t k = m.coverage_factor ? m.coverage_factor->millionths()
-                         : m.degrees_of_freedom
-                             ? gauging::coverage_millionths(known.degrees_of_freedom)
-                             : 2 * kOne;
+  const std::int64_t k = m.coverage_factor.value_or(default_coverage(known)).millionths();
   const double covered =
       gauging::conformance_probability({Length::nanometres(k), Length::nanometres(-k)}, Length(),
                                        {Length::nanometres(kOne), known.degrees_of_freedom});

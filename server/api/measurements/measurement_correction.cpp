@@ -95,7 +95,7 @@ bool is_derived(const app::MeasurementField& field, const app::Measurement& orig
   if (field.number == &app::MeasurementFields::degrees_of_freedom)
     return original.uncertainty_budget.has_value();
   return field.text == &app::MeasurementFields::size_operator &&
-         original.size_operator == kTwoPoint;
+         original.size_operator == app::kTwoPoint;
 }
 
 /// The corrected value cannot have the field: it is no size, or its designation requires no

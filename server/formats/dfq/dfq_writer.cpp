@@ -65,7 +65,7 @@ void say_rule(const app::Measurement& m, const auto& say) {
     say("degrees_of_freedom",
         format_decimal(std::llround(std::min(known.degrees_of_freedom, kMost) * 1e6), 6));
   }
-  if (m.size_operator && m.size_operator != "LP") say("size_operator", *m.size_operator);
+  if (m.size_operator && m.size_operator != app::kTwoPoint) say("size_operator", *m.size_operator);
   if (m.envelope) say("envelope", *m.envelope);
   if (m.go_gauge) say("go_gauge", *m.go_gauge);
   if (m.inside_corner) say("inside_corner", "true");
