@@ -28,9 +28,9 @@ namespace {
 constexpr std::size_t kMostRemembered = 10'000;
 
 /// The tables are the service's, which is asked once for each nominal size and class.
-aqdef::LimitsOfClass limits_by(const Context& context) {
-  return [&context, known = std::map<std::string, aqdef::SizeLimits>()](
-             Length nominal, const std::string& name) mutable -> Result<aqdef::SizeLimits> {
+sheet::LimitsOfClass limits_by(const Context& context) {
+  return [&context, known = std::map<std::string, sheet::SizeLimits>()](
+             Length nominal, const std::string& name) mutable -> Result<sheet::SizeLimits> {
     const std::string target =
         "/v1/limits/" + percent_encoded(fmt::format("{} {}", format_mm(nominal), name));
     if (const auto found = known.find(target); found != known.end()) return found->second;
@@ -88,7 +88,7 @@ Outcome<aqdef::MeasurementOptions> table_options(const Context& context,
                                                  const MeasureOptions& options) {
   aqdef::MeasurementOptions table;
   table.leaves_out_others = options.leave_out_others;
-  table.length_unit = aqdef::length_unit(options.length_unit);
+  table.length_unit = sheet::length_unit(options.length_unit);
   table.limits_of = limits_by(context);
   table.columns = TRY(read_words("--map", options.columns));
   table.constants = TRY(read_words("--set", options.constants));
@@ -127,7 +127,7 @@ Outcome<RowInput> open_qif(const MeasureOptions& options, aqdef::MeasurementOpti
                                    {std::move(table), std::numeric_limits<std::size_t>::max()}));
 }
 
-Outcome<RowInput> open_ndjson(const MeasureOptions& options, aqdef::LimitsOfClass limits_of) {
+Outcome<RowInput> open_ndjson(const MeasureOptions& options, sheet::LimitsOfClass limits_of) {
   const auto file = std::make_shared<InputFile>(TRY(InputFile::open(options.input)));
   return opened(options.input, sheet::NdjsonRows::open({}, reading(file), sheet::Encoding::Utf8,
                                                        std::move(limits_of)));

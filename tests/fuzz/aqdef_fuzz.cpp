@@ -19,7 +19,7 @@ std::string rewritten(std::string_view text) {
     const auto more = reader.next(set);
     if (!more || !*more) break;
     for (const Value& value : set.values) {
-      const auto measured = parse_length(set.cell(value, 0), LengthUnit::Millimetre);
+      const auto measured = sheet::parse_length(set.cell(value, 0), sheet::LengthUnit::Millimetre);
       if (!measured || set.cell(value, 1) == "256") continue;
       const Characteristic& characteristic =
           *reader.description().characteristic(value.characteristic);
@@ -53,7 +53,7 @@ void take(std::string_view text) {
   MeasurementOptions options;
   options.constants = {{"feature", "hole"}};
   if (zone) options.zone = *zone;
-  options.length_unit = LengthUnit::Millimetre;
+  options.length_unit = sheet::LengthUnit::Millimetre;
   options.leaves_out_others = true;
   MeasurementCsv csv(read_text(text), options);
   std::string rows;

@@ -20,7 +20,7 @@ Said said(const Read& first, const Read& again) {
   QifOptions options;
   options.constants = {{"feature", "hole"}};
   if (zone) options.zone = *zone;
-  options.length_unit = aqdef::LengthUnit::Millimetre;
+  options.length_unit = sheet::LengthUnit::Millimetre;
   options.leaves_out_others = true;
   auto rows = QifRows::open(first, again, options);
   if (!rows) return {.error = rows.error().message};

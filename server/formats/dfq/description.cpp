@@ -5,25 +5,6 @@ namespace {
 
 Error wrong(std::string what) { return {kMalformed, std::move(what)}; }
 
-/// The names of each unit, in the order of LengthUnit.
-constexpr std::array<std::string_view, 9> kUnits[] = {
-    {"mm", "millimeter", "millimetre"},
-    {"\xC2\xB5m", "\xCE\xBCm", "\xC2\xB5", "um", "my", "micrometer", "micrometre"},
-    {"cm"},
-    {"m", "meter", "metre"},
-    {"in", "in.", "inch", "inches", "zoll", "\""}};
-
-/// Digits after the point of a value of one nanometre.
-constexpr int decimals_of(LengthUnit unit) {
-  switch (unit) {
-    case LengthUnit::Micrometre: return 3;
-    case LengthUnit::Centimetre: return 7;
-    case LengthUnit::Metre:
-    case LengthUnit::Inch: return 9;
-    default: return 6;
-  }
-}
-
 std::string_view tolerance_name(int number) { return field_info(number)->name; }
 
 /// Reads the lengths of one characteristic.
@@ -32,9 +13,10 @@ class ToleranceReader {
   ToleranceReader(const Description& description, const Characteristic& characteristic)
       : description_(description), characteristic_(characteristic) {}
 
-  Result<Toleranced> read(std::optional<LengthUnit> fallback, const LimitsOfClass& limits_of) {
+  Result<Toleranced> read(std::optional<sheet::LengthUnit> fallback,
+                          const sheet::LimitsOfClass& limits_of) {
     const Described* const unit = find(k::kUnit);
-    const auto known = unit == nullptr ? fallback : length_unit(unit->text);
+    const auto known = unit == nullptr ? fallback : sheet::length_unit(unit->text);
     if (!known) {
       return unit == nullptr
                  ? wrong(nullptr,
@@ -82,7 +64,7 @@ class ToleranceReader {
   Result<std::optional<Length>> length(int number) const {
     const Described* const field = find(number);
     if (field == nullptr) return std::optional<Length>();
-    const auto value = parse_length(field->text, read_.unit);
+    const auto value = sheet::parse_length(field->text, read_.unit);
     if (!value) {
       return wrong(field,
                    fmt::format("has '{}' in K{:04}, the {}, which must be a number",
@@ -117,7 +99,7 @@ class ToleranceReader {
     return std::optional(by_allowance);
   }
 
-  Result<void> check_class(const LimitsOfClass& limits_of) const {
+  Result<void> check_class(const sheet::LimitsOfClass& limits_of) const {
     if (!limits_of) return {};
     const auto limits = limits_of(read_.nominal, read_.class_name);
     if (!limits) {
@@ -126,8 +108,8 @@ class ToleranceReader {
     }
     const auto agree = [&](const std::optional<Length>& said, const std::optional<Length>& by_class,
                            int number) -> Result<void> {
-      const auto differs = difference(fmt::format("K{:04}", number), said, by_class, read_.nominal,
-                                      read_.class_name);
+      const auto differs = sheet::difference(fmt::format("K{:04}", number), said, by_class,
+                                             read_.nominal, read_.class_name);
       if (!differs) return {};
       const Described* const field = find(number);
       return wrong(field != nullptr ? field : find(k::kToleranceClass),
@@ -143,15 +125,6 @@ class ToleranceReader {
 };
 
 }  // namespace
-
-std::optional<std::string> difference(std::string_view field, std::optional<Length> in_file,
-                                      std::optional<Length> of_class, Length nominal,
-                                      std::string_view class_name) {
-  if (!in_file || in_file == of_class) return std::nullopt;
-  return fmt::format("has {} mm in {}, but {} of {} mm gives {}", format_mm(*in_file), field,
-                     class_name, format_mm(nominal),
-                     of_class ? format_mm(*of_class) + " mm" : "none");
-}
 
 const Described* FieldList::find(int number) const {
   const auto found = std::ranges::find_if(fields_, [number](const Described& field) {
@@ -262,16 +235,6 @@ std::string_view Description::part_text(const Characteristic& characteristic, in
   return own.empty() ? all_parts_.text(number) : own;
 }
 
-std::optional<LengthUnit> length_unit(std::string_view name) {
-  const auto* const found = std::ranges::find_if(kUnits, [name](const auto& names) {
-    return !name.empty() && std::ranges::any_of(names, [name](std::string_view known) {
-      return ascii_iequals(known, name);
-    });
-  });
-  if (found == std::end(kUnits)) return std::nullopt;
-  return static_cast<LengthUnit>(found - kUnits);
-}
-
 std::string_view user_text(const Description& description, const Characteristic& characteristic,
                            std::string_view name) {
   if (description.text(characteristic, k::kUserName) != "fitgauge") return {};
@@ -286,34 +249,9 @@ std::string_view user_text(const Description& description, const Characteristic&
 
 Result<Toleranced> read_tolerance(const Description& description,
                                   const Characteristic& characteristic,
-                                  std::optional<LengthUnit> fallback,
-                                  const LimitsOfClass& limits_of) {
+                                  std::optional<sheet::LengthUnit> fallback,
+                                  const sheet::LimitsOfClass& limits_of) {
   return ToleranceReader(description, characteristic).read(fallback, limits_of);
-}
-
-Result<Length> parse_length(std::string_view text, LengthUnit unit) {
-  const auto value = parse_decimal(text, {.scale = decimals_of(unit),
-                                          .decimal_comma = true,
-                                          .exponent = true,
-                                          .round_to_nearest = true});
-  if (!value) {
-    return Error{value.error().code == ErrorCode::NumberOutOfRange ? ErrorCode::LengthOutOfRange
-                                                                   : ErrorCode::LengthMalformed,
-                 value.error().message};
-  }
-  std::int64_t nanometres = *value;
-  if (unit == LengthUnit::Inch) {
-    // 25.4 mm are 254 tenths: of 1e-9 inch, divided by 10,000.
-    constexpr std::int64_t kMost = 36'000'000'000'000'000;
-    if (nanometres > kMost || nanometres < -kMost)
-      return Error{ErrorCode::LengthOutOfRange, "is too long"};
-    const std::int64_t half = nanometres < 0 ? -5'000 : 5'000;
-    nanometres = (nanometres * 254 + half) / 10'000;
-  }
-  const Length length = Length::nanometres(nanometres);
-  if (length > kLongest || length < -kLongest)
-    return Error{ErrorCode::LengthOutOfRange, "is too long"};
-  return length;
 }
 
 }  // namespace fitgauge::aqdef

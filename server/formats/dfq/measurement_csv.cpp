@@ -179,7 +179,7 @@ Result<void> MeasurementCsv::append_value(const ValueSet& set_of, const Value& v
   texts_.clear();
   row_.assign(prepared.fields.begin(), prepared.fields.end());
   const std::string_view text = trim(set_of.cell(value, 0));
-  const auto measured = parse_length(text, prepared.unit);
+  const auto measured = sheet::parse_length(text, prepared.unit);
   if (!measured) {
     return at_line(value.line, "has the value '{}', which is not a length",
                    first_characters(text, 40));
@@ -252,11 +252,11 @@ std::string MeasurementCsv::reason_against(const Characteristic& characteristic)
   if (!type.empty() && type != "0")
     return fmt::format("it is of type {} (K2004), not measured", type);
   const std::string_view unit = description.text(characteristic, k::kUnit);
-  if (!unit.empty() && !length_unit(unit))
+  if (!unit.empty() && !sheet::length_unit(unit))
     return fmt::format("its unit {} is not a length", first_characters(unit, 40));
   const std::string_view nominal = description.text(characteristic, k::kNominal);
   if (nominal.empty()) return "it has no nominal value (K2101)";
-  const auto size = parse_length(nominal, LengthUnit::Millimetre);
+  const auto size = sheet::parse_length(nominal, sheet::LengthUnit::Millimetre);
   const auto quantity =
       gauging::quantity_from_word(user_text(description, characteristic, "quantity"));
   if (size && *size <= Length() && !(quantity && gauging::is_signed(*quantity)))

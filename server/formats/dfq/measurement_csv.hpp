@@ -8,7 +8,7 @@ namespace fitgauge::aqdef {
 /// As for a table; columns are `K0054` and the field of a measurement that it is, constants are for
 /// a file without that field, others are characteristics and values that are not measurements.
 struct MeasurementOptions : sheet::ShopCsvOptions {
-  std::optional<LengthUnit> length_unit{};  ///< if the file has none
+  std::optional<sheet::LengthUnit> length_unit{};  ///< if the file has none
 };
 
 /// Converts a DFQ to CSV for /v1/measurements: a header, and a line for each value. K0053 is order,
@@ -36,7 +36,7 @@ class MeasurementCsv {
   /// Fields that all values of a characteristic share.
   struct Prepared {
     bool is_left_out = false;
-    LengthUnit unit = LengthUnit::Millimetre;
+    sheet::LengthUnit unit = sheet::LengthUnit::Millimetre;
     std::vector<std::string> fields{};  ///< by their places in the header
     std::vector<CarriedField> carried{};
   };

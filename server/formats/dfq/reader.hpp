@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/length.hpp"
 #include "formats/dfq/lines.hpp"
+#include "formats/sheet/lengths.hpp"
 
 namespace fitgauge::aqdef {
 
@@ -89,39 +89,12 @@ class Description {
   std::map<std::pair<int, std::uint32_t>, std::string> catalogues_{};
 };
 
-/// A unit of length, as K2142 names it.
-enum class LengthUnit : std::uint8_t { Millimetre, Micrometre, Centimetre, Metre, Inch };
-
-/// `mm`, `µm`, `cm`, `m`, `inch` and other usual names, in either case.
-std::optional<LengthUnit> length_unit(std::string_view name);
-
-/// To the nearest nanometre, as measured values are read. A decimal comma and an exponent are.
-/// @errors LengthMalformed, LengthOutOfRange
-Result<Length> parse_length(std::string_view text, LengthUnit unit);
-
-struct SizeLimits {
-  std::optional<Length> upper{};
-  std::optional<Length> lower{};
-
-  friend bool operator==(const SizeLimits&, const SizeLimits&) = default;
-};
-
-/// Limits of a class for a nominal size, from the tables.
-using LimitsOfClass = std::function<Result<SizeLimits>(Length nominal, const std::string& name)>;
-
-/// Compares a limit of a file with the limit that its class gives.
-/// @param field of the file. @returns the difference, without a remedy; nothing if they agree, or
-/// the file has no such limit.
-std::optional<std::string> difference(std::string_view field, std::optional<Length> in_file,
-                                      std::optional<Length> of_class, Length nominal,
-                                      std::string_view class_name);
-
 /// The size of a characteristic.
 struct Toleranced {
-  LengthUnit unit = LengthUnit::Millimetre;
+  sheet::LengthUnit unit = sheet::LengthUnit::Millimetre;
   Length nominal{};
-  std::string class_name{};  ///< `H7`; empty: limits of a drawing
-  SizeLimits limits{};       ///< of a class too, if the file has them
+  std::string class_name{};    ///< `H7`; empty: limits of a drawing
+  sheet::SizeLimits limits{};  ///< of a class too, if the file has them
 };
 
 /// The user field of fitgauge in a characteristic (K2800 to K2802): `name=…`, or nothing.
@@ -134,8 +107,8 @@ std::string_view user_text(const Description& description, const Characteristic&
 /// @errors kMalformed with the line: it is not a length, or its fields contradict each other.
 Result<Toleranced> read_tolerance(const Description& description,
                                   const Characteristic& characteristic,
-                                  std::optional<LengthUnit> fallback,
-                                  const LimitsOfClass& limits_of);
+                                  std::optional<sheet::LengthUnit> fallback,
+                                  const sheet::LimitsOfClass& limits_of);
 
 /// The parts of a value between its separators, in this order.
 inline constexpr std::array<int, 10> kCells = {

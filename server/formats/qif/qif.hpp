@@ -157,7 +157,7 @@ class Definitions {
   };
 
   /// Reads all but the measurements. @errors CsvMalformed with the line
-  static Result<Definitions> read(Read document, std::optional<aqdef::LengthUnit> fallback);
+  static Result<Definitions> read(Read document, std::optional<sheet::LengthUnit> fallback);
 
   /// Returns null if there is no such id.
   const Item* item(const std::string& id) const { return find(items_, id); }
@@ -172,7 +172,7 @@ class Definitions {
     return text(features_, std::string(text(feature_nominals_, of_nominal)));
   }
   /// Returns the unit of the document or of the caller; none if neither has one.
-  std::optional<aqdef::LengthUnit> unit() const { return unit_; }
+  std::optional<sheet::LengthUnit> unit() const { return unit_; }
   const std::string& unit_name() const { return unit_name_; }
   const std::string& order() const { return order_; }
   const std::string& inspector() const { return inspector_; }
@@ -200,7 +200,7 @@ class Definitions {
   ById<std::string> features_{};          ///< hole or shaft
   ById<std::string> feature_nominals_{};  ///< id of the feature's definition
   ById<std::string> feature_items_{};     ///< id of the feature's nominal
-  std::optional<aqdef::LengthUnit> unit_{};
+  std::optional<sheet::LengthUnit> unit_{};
   std::string unit_name_{};
   std::string order_{};
   std::string inspector_{};

@@ -34,8 +34,8 @@ constexpr std::array<std::string_view, 10> kLists = {
     "ActualComponentSet",        "MeasurementDevices",     "PrimaryUnits",
     "InspectionTraceability"};
 
-std::optional<aqdef::LengthUnit> unit_of_factor(std::string_view factor) {
-  using aqdef::LengthUnit;
+std::optional<sheet::LengthUnit> unit_of_factor(std::string_view factor) {
+  using sheet::LengthUnit;
   constexpr int kScale = 9;
   const auto billionths = parse_decimal(factor, {.scale = kScale, .exponent = true});
   if (!billionths) return std::nullopt;
@@ -58,7 +58,7 @@ Result<Length> QifRows::length(std::string_view what, const std::string& text,
                           "has lengths without a known unit in FileUnits ('{}'): set length_unit",
                           first_characters(definitions_.unit_name(), 40));
   }
-  const auto read = aqdef::parse_length(text, *definitions_.unit());
+  const auto read = sheet::parse_length(text, *definitions_.unit());
   if (read) return *read;
   return aqdef::at_line(line, "has the {} '{}', which is not a length", what,
                         first_characters(text, 40));
@@ -82,7 +82,7 @@ Result<void> QifRows::read_tolerance(const Definitions::Item& item, std::uint32_
     if (!limits) return aqdef::at_line(line, "has a tolerance class: " + limits.error().message);
     for (const auto& [said, of_class, what] : {std::tuple(upper, limits->upper, "MaxValue"),
                                                std::tuple(lower, limits->lower, "MinValue")}) {
-      const auto differs = aqdef::difference(what, said, of_class, target, definition->class_name);
+      const auto differs = sheet::difference(what, said, of_class, target, definition->class_name);
       if (differs) return aqdef::at_line(line, *differs + ": correct one of them");
     }
     return {};
@@ -261,14 +261,14 @@ void Definitions::take(std::string_view list, const Element& element) {
   } else if (list == "PrimaryUnits" && element.name() == "LinearUnit") {
     unit_name_ = element.text("UnitName");
     const std::string factor = element.text("UnitConversion/Factor");
-    unit_ = factor.empty() ? aqdef::length_unit(unit_name_) : unit_of_factor(factor);
+    unit_ = factor.empty() ? sheet::length_unit(unit_name_) : unit_of_factor(factor);
   } else if (list == "InspectionTraceability") {
     if (element.name() == "OrderNumber") order_ = element.own_text();
     if (element.name() == "InspectionOperator") inspector_ = element.text("Name");
   }
 }
 
-Result<Definitions> Definitions::read(Read document, std::optional<aqdef::LengthUnit> fallback) {
+Result<Definitions> Definitions::read(Read document, std::optional<sheet::LengthUnit> fallback) {
   XmlReader reader(std::move(document));
   Definitions read;
   read.unit_ = fallback;

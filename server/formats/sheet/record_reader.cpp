@@ -13,7 +13,7 @@ bool is_exported(const JsonValue& record) {
 
 Result<std::optional<Length>> length_in(std::string_view member, std::string_view text) {
   if (text.empty()) return std::optional<Length>();
-  const auto read = aqdef::parse_length(text, aqdef::LengthUnit::Millimetre);
+  const auto read = parse_length(text, LengthUnit::Millimetre);
   if (read) return std::optional(*read);
   return Error::of(ErrorCode::CsvMalformed, "has '{}' in {}, which must be a length",
                    first_characters(text, 40), member);
@@ -23,7 +23,7 @@ Result<std::optional<Length>> length_in(std::string_view member, std::string_vie
 
 Result<ExportedRow> read_exported(
     const std::function<std::string_view(std::string_view member)>& text_of,
-    const aqdef::LimitsOfClass& limits_of) {
+    const LimitsOfClass& limits_of) {
   const auto wrong = [](std::string message) {
     return Error{ErrorCode::CsvMalformed, std::move(message)};
   };
@@ -50,7 +50,7 @@ Result<ExportedRow> read_exported(
     for (const auto& [member, of_class] :
          {std::pair("lower_limit_mm", limits->lower), std::pair("upper_limit_mm", limits->upper)}) {
       const auto in_file = TRY(length_in(member, text_of(member)));
-      if (auto differs = aqdef::difference(member, in_file, of_class, *nominal, name))
+      if (auto differs = difference(member, in_file, of_class, *nominal, name))
         return wrong(*differs + " here: set the same class, or correct the row");
     }
   }

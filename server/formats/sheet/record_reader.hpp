@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/csv.hpp"
-#include "formats/dfq/reader.hpp"
+#include "formats/sheet/lengths.hpp"
 #include "formats/sheet/text_encoding.hpp"
 #include "record/measurement_row_reader.hpp"
 
@@ -157,7 +157,7 @@ struct ExportedRow {
 /// other limits here.
 Result<ExportedRow> read_exported(
     const std::function<std::string_view(std::string_view member)>& text_of,
-    const aqdef::LimitsOfClass& limits_of);
+    const LimitsOfClass& limits_of);
 
 /// Returns the field of a member; empty if it was computed or repeats another one.
 std::string_view field_of_export(std::string_view member, const ExportedRow& row);
@@ -172,7 +172,7 @@ class NdjsonRows {
   /// @param first and again as for Utf8Input. @param limits_of as for read_exported
   /// @errors TextEncoding
   static Result<NdjsonRows> open(const Read& first, Read again, Encoding encoding,
-                                 aqdef::LimitsOfClass limits_of) {
+                                 LimitsOfClass limits_of) {
     auto input = TRY(Utf8Input::open(first, std::move(again), encoding));
     return NdjsonRows(std::move(input), std::move(limits_of));
   }
@@ -182,7 +182,7 @@ class NdjsonRows {
   Result<bool> append(std::string& rows);
 
  private:
-  NdjsonRows(Utf8Input input, aqdef::LimitsOfClass limits_of)
+  NdjsonRows(Utf8Input input, LimitsOfClass limits_of)
       : lines_(std::move(input)), limits_of_(std::move(limits_of)) {
     lines_.set_separator(RecordReader::kNone);
   }
@@ -191,7 +191,7 @@ class NdjsonRows {
   Result<void> append_as_given(std::string& out, std::string_view line) const;
 
   RecordReader lines_;
-  aqdef::LimitsOfClass limits_of_;
+  LimitsOfClass limits_of_;
 };
 
 }  // namespace fitgauge::sheet

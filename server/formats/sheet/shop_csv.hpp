@@ -13,9 +13,9 @@ struct ShopCsvOptions {
   Encoding encoding = Encoding::Detected;
   Words columns{};    ///< the table's name of a column, the field it is; empty: it is left out
   Words constants{};  ///< a field and its value, for every row
-  std::optional<TimeZone> zone{};    ///< of times without an offset
-  bool leaves_out_others = false;    ///< columns that are no field and that `columns` lacks
-  aqdef::LimitsOfClass limits_of{};  ///< null: limits of a class are not compared with the tables
+  std::optional<TimeZone> zone{};  ///< of times without an offset
+  bool leaves_out_others = false;  ///< columns that are no field and that `columns` lacks
+  LimitsOfClass limits_of{};       ///< null: limits of a class are not compared with the tables
 };
 
 /// Converts a table of a gauge or a spreadsheet to CSV for /v1/measurements: UTF-8, `;` between the

@@ -20,11 +20,11 @@ struct FileRows {
 
 constexpr std::size_t kMostAppended = std::size_t{8} << 20;  ///< by one call of append()
 
-aqdef::LimitsOfClass limits_by(const iso286::ToleranceTables& tables) {
-  return [&tables](Length nominal, const std::string& name) -> Result<aqdef::SizeLimits> {
+sheet::LimitsOfClass limits_by(const iso286::ToleranceTables& tables) {
+  return [&tables](Length nominal, const std::string& name) -> Result<sheet::SizeLimits> {
     const auto size = TRY(iso286::NominalSize::make(nominal));
     const auto limits = TRY(tables.limits_of_size(size, name));
-    return aqdef::SizeLimits{.upper = limits.upper_limit(), .lower = limits.lower_limit()};
+    return sheet::SizeLimits{.upper = limits.upper_limit(), .lower = limits.lower_limit()};
   };
 }
 

@@ -296,8 +296,8 @@ Result<sheet::Encoding> read_encoding(std::string_view word) {
   return invalid_field("encoding must be one of: auto, utf-8, utf-16, windows-1252");
 }
 
-Result<aqdef::LengthUnit> read_unit(std::string_view name) {
-  if (const auto unit = aqdef::length_unit(name)) return *unit;
+Result<sheet::LengthUnit> read_unit(std::string_view name) {
+  if (const auto unit = sheet::length_unit(name)) return *unit;
   return invalid_field("length_unit must be one of: mm, \xC2\xB5m, cm, m, inch");
 }
 

@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
   if (argc > 2 && std::string_view(argv[2]) == "rows") {
     fitgauge::aqdef::MeasurementOptions options;
     options.zone = fitgauge::sheet::TimeZone::load("UTC").value();
-    options.length_unit = fitgauge::aqdef::LengthUnit::Millimetre;
+    options.length_unit = fitgauge::sheet::LengthUnit::Millimetre;
     options.leaves_out_others = true;
     MeasurementCsv csv(read, options);
     std::string rows;

@@ -104,7 +104,7 @@ TEST_CASE("order, ends of lines, indices, types, lengths, counts and mandatory f
       CHECK(field.text.find_first_not_of("0123456789") == std::string_view::npos);
     }
     if (info->type == FieldType::Number) {
-      CHECK(parse_length(field.text, LengthUnit::Millimetre).has_value());
+      CHECK(sheet::parse_length(field.text, sheet::LengthUnit::Millimetre).has_value());
       CHECK(field.text.find_first_not_of("-.0123456789") == std::string_view::npos);
     }
     switch (level_of(field.number)) {

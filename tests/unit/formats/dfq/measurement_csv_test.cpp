@@ -50,11 +50,11 @@ std::string file(const std::string& characteristic, const std::string& values) {
 
 const std::string kH7 = "K2101/1 25\r\nK2103/1 H\r\nK2104/1 7\r\nK2142/1 mm\r\n";
 
-Result<SizeLimits> h7_of_25(Length nominal, const std::string& name) {
+Result<sheet::SizeLimits> h7_of_25(Length nominal, const std::string& name) {
   if (name != "H7" || nominal != Length::millimetres(25)) {
     return Error{ErrorCode::ClassUnknown, "there is no class " + name};
   }
-  return SizeLimits{.upper = Length::nanometres(25'021'000), .lower = nominal};
+  return sheet::SizeLimits{.upper = Length::nanometres(25'021'000), .lower = nominal};
 }
 
 TEST_CASE("a value with all its fields is a measurement") {
@@ -134,7 +134,7 @@ TEST_CASE("limits and units") {
     CHECK(rows.find(said) != std::string::npos);
   }
   MeasurementOptions how = options();
-  how.length_unit = LengthUnit::Inch;
+  how.length_unit = sheet::LengthUnit::Inch;
   CHECK(rows_of(file("K2101/1 1\nK2111/1 1.1\n", "1.05\n"), how)
             .starts_with("measured_mm=26.67 nominal_mm=25.4"));
   how.constants.clear();
