@@ -136,7 +136,7 @@ class LogFollower final : public Worker {
         if (pause_.count() == 0) deliver(stop);
         find_offsets(stop);
       });
-      const bool is_saved = save(false);
+      const bool is_saved = save_soon();
       show();
       if (pause_.count() > 0) {
         bell_->wait(stop, pause_, false);
@@ -146,7 +146,7 @@ class LogFollower final : public Worker {
         bell_->wait(stop, is_idle ? kLongestSleep : kBetweenSaves, true);
       }
     }
-    save(true);
+    static_cast<void>(save());
   }
 
   bool begin() {
@@ -240,7 +240,9 @@ class LogFollower final : public Worker {
   }
   void deliver(const std::stop_token& stop) {
     if (stop.stop_requested()) return;
-    const std::size_t count = planned(ripe());
+    const auto next = planned(ripe());
+    if (!next) return take({.failure = next.error().message, .wait = kFirstPause}, 0);
+    const std::size_t count = *next;
     if (count == 0) {
       if (has_events()) return deliver_events(stop);
       const auto attempt = outlet_->idle(stop);
@@ -275,7 +277,7 @@ class LogFollower final : public Worker {
     const std::int64_t age =
         plant_.clock.now().nanoseconds - (*pending_.front())->received_at.nanoseconds;
     // After a kill, the planned delivery is sent first, as soon as all of it is read.
-    if (progress_.planned > progress_.position) {
+    if (has_plan()) {
       const bool is_read = read_to_ >= progress_.planned || pending_.size() >= kPage;
       return is_read ? pending_.size() : 0;
     }
@@ -283,16 +285,20 @@ class LogFollower final : public Worker {
     const bool is_young = age >= 0 && std::chrono::nanoseconds(age) < options_.gather;
     return pending_.size() >= kPage || !is_young ? pending_.size() : 0;
   }
-  /// @returns the number of the next delivery; none while it cannot be stored.
-  std::size_t planned(std::size_t count) {
+  /// Whether a planned delivery has pending measurements: another filter may have left out all.
+  bool has_plan() const {
+    return !pending_.empty() && (*pending_.front())->row <= progress_.planned;
+  }
+  /// @returns the number of measurements of the next delivery. @errors the plan cannot be stored.
+  Result<std::size_t> planned(std::size_t count) {
     if (!options_.plans || count == 0) return count;
-    if (progress_.planned <= progress_.position) {
+    if (!has_plan()) {
       count = std::min(count, kPage);
       progress_.planned = (*pending_[count - 1])->row;
       is_dirty_ = true;
-      if (!save(true)) {
+      if (const auto saved = save(); !saved) {
         progress_.planned = 0;
-        return 0;
+        return saved.error();
       }
     }
     const auto is_planned = [this](const Outgoing& out) {
@@ -330,17 +336,20 @@ class LogFollower final : public Worker {
       pause_ = delivery.wait.value_or(is_first ? kFirstPause : 2 * pause_);
       pause_ = std::clamp(pause_, kFirstPause, options_.longest_wait);
     }
-    if (!delivery.refused.empty() || options_.plans) save(true);
+    if (!delivery.refused.empty() || options_.plans) static_cast<void>(save());
+  }
+  /// The next save repairs a failed one. @errors those of storage.
+  Result<void> save() {
+    if (!is_dirty_) return {};
+    saved_at_ = std::chrono::steady_clock::now();
+    TRY(save_progress(plant_.documents, options_.name, progress_));
+    is_dirty_ = false;
+    return {};
   }
   /// Saves unless it did so less than a second ago. @returns whether nothing is left to save.
-  bool save(bool at_once) {
-    const Time now = std::chrono::steady_clock::now();
-    if (!is_dirty_) return true;
-    if (!at_once && now < saved_at_ + kBetweenSaves) return false;
-    saved_at_ = now;
-    // The next save repairs a failed one.
-    is_dirty_ = !save_progress(plant_.documents, options_.name, progress_).has_value();
-    return !is_dirty_;
+  bool save_soon() {
+    const bool waits = is_dirty_ && std::chrono::steady_clock::now() < saved_at_ + kBetweenSaves;
+    return !waits && save().has_value();
   }
 
   void show() {

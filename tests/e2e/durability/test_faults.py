@@ -98,6 +98,28 @@ class FullDisk(FaultTest):
         self.assertEqual([" ".join(word for word in ("error", "info", "full", "SQLite code", "ok") if word in line)
                           for line in health], ["error full SQLite code", "info ok"], health)
 
+    def test_a_folder_out_waits_until_its_next_file_can_be_planned(self):
+        root = pathlib.Path(tempfile.mkdtemp(prefix="fitgauge-out-"))
+        self.addCleanup(shutil.rmtree, root, ignore_errors=True)
+        daemon = self.make_daemon("--connection-folders", root, data=self.folder / "data")
+        daemon.start()
+        self.assertEqual(daemon.measure([PART] * 300).status, 201)
+        connected = daemon.request("PUT", "/v1/connections/caq", {
+            "kind": "folder_out", "folder": str(root / "out"), "every_s": 1, "start": "beginning", "longest_wait_s": 1})
+        self.assertEqual(connected.status, 201, connected)
+
+        def state():
+            return daemon.get("/v1/connections/caq").json
+
+        daemon.connection_in("caq", "failing")  # its first file is planned, and its folder is away
+        ballast = self.fill()
+        (root / "out").mkdir()
+        failing = wait_for(lambda: "full" in (seen := state())["last_error"] and seen, state)
+        self.assertEqual((failing["state"], failing["position"], failing["behind"]), ("failing", 256, 44))
+        ballast.unlink()
+        wait_for(lambda: state()["position"] == 300, state)
+        self.assertEqual(len(list((root / "out").iterdir())), 2)
+
     def test_a_drawing_for_which_the_disk_has_no_room_is_refused_and_leaves_nothing(self):
         daemon = self.make_daemon(data=self.folder / "data").start()
         step = {"Content-Type": "model/step"}

@@ -408,6 +408,18 @@ class Writing(Folders):
                                                               "split": "day", "every_s": 0}).json
         self.assertEqual(sorted(e["pointer"] for e in problem["errors"]), ["/every_s", "/folder", "/format", "/split"])
 
+    def test_another_filter_leaves_out_what_was_planned(self):
+        daemon = self.daemon().start()
+        self.folder.rmdir()
+        self.out(daemon, filter={"machine": "M1"})
+        self.store(daemon, "1", machine="M1")
+        daemon.connection_in("caq", "failing")  # its file is planned
+        self.store(daemon, "2", machine="M2")
+        self.folder.mkdir()
+        self.out(daemon, 200, filter={"machine": "M2"})
+        self.wait(lambda: [row["part_id"] for row in self.rows()] == ["P2"])
+        self.wait(lambda: daemon.get("/v1/connections/caq").json["behind"] == 0)
+
 
 @unittest.skipUnless(can_trace(), "needs strace and the right to trace")
 class Killed(Folders):
