@@ -166,6 +166,16 @@ std::optional<Definition> Connections::find(std::string_view name) const {
   return found == entries_.end() ? std::nullopt : std::optional(found->second.definition);
 }
 
+Result<std::optional<Definition>> Connections::find_stored(std::string_view name) const {
+  auto stored = TRY(plant_.documents.wait_for_list(app::DocumentKind::Connection));
+  for (app::NamedDocument& document : stored) {
+    if (ascii_lower(document.name) != ascii_lower(name)) continue;
+    return std::optional(
+        Definition{.name = std::move(document.name), .text = std::move(document.text)});
+  }
+  return std::optional<Definition>();
+}
+
 Result<Definition> Connections::named(std::string_view name) const {
   auto found = find(name);
   if (!found || found->name != name) return unknown(name);
@@ -203,8 +213,10 @@ Result<bool> Connections::put(const std::string& name, std::string_view body,
                  "with a data folder, which forwards to this service"};
   }
   TRY(check_name(name));
-  const auto before = find(name);
+  auto before = find(name);
   if (before && before->is_read_only) return read_only(before->name);
+  // A stored connection that could not be started keeps its position and its secrets, too.
+  if (!before) before = TRY(find_stored(name));
   if (before && before->name != name) {
     return Error{ErrorCode::PathMalformed,
                  fmt::format("'{}' and the connection '{}' differ only in upper and lower case",

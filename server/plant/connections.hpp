@@ -86,6 +86,9 @@ class Connections {
   void end(const std::string& key);
   /// Returns the connection whose name differs at most in upper and lower case.
   std::optional<Definition> find(std::string_view name) const;
+  /// Returns name and text of the stored connection of such a name, which may not have started.
+  /// Blocks. @errors those of storage.
+  Result<std::optional<Definition>> find_stored(std::string_view name) const;
   /// @errors ConnectionUnknown.
   Result<Definition> named(std::string_view name) const;
   static ConnectionState state_of(const Entry& entry);

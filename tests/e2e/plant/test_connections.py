@@ -1,5 +1,6 @@
 """Connections as data: made, changed and deleted over HTTP, and those of the configuration file beside them."""
 
+import json
 import pathlib
 import socket
 import tempfile
@@ -7,6 +8,7 @@ import threading
 import unittest
 
 from support.daemon import Daemon, DaemonTest
+from support.waiting import wait_for
 
 CONTROL = {"kind": "lsv2", "address": "127.0.0.1:1", "paths": ["TNC:\\logs\\*.TXT"], "interval_s": 3600}
 
@@ -103,6 +105,39 @@ class Configured(unittest.TestCase):
         self.assertEqual([(each["name"], each["read_only"]) for each in found], [("other", True)])
         self.assertEqual(daemon.stop(), 0)  # its log is written
         self.assertIn("connection_not_started", daemon.log)
+
+    def test_one_that_was_not_started_keeps_its_position(self):
+        root = tempfile.TemporaryDirectory()
+        self.addCleanup(root.cleanup)
+        old, new = (pathlib.Path(root.name) / name for name in ("old", "new"))
+        daemon = Daemon("--connection-folders", old)
+        self.addCleanup(daemon.cleanup)
+        daemon.start()
+
+        def put(name, folder):
+            folder.mkdir(exist_ok=True)
+            return daemon.request("PUT", f"/v1/connections/{name}", {
+                "kind": "folder_out", "folder": str(folder), "every_s": 1, "format": "ndjson"})
+
+        def store(name):
+            self.assertEqual(daemon.measure({"designation": "25 H7", "measured_mm": "25.01", "part_id": name}).status, 201)
+
+        def written(folder):
+            return [json.loads(line)["part_id"] for file in sorted(folder.glob("*.ndjson"))
+                    for line in file.read_text().splitlines()]
+
+        self.assertEqual(put("caq", old).status, 201)
+        store("before")
+        wait_for(lambda: written(old) == ["before"], lambda: daemon.log)
+        self.assertEqual(daemon.stop(), 0)
+        daemon.flags = ["--connection-folders", str(new)]
+        daemon.start()
+        daemon.wait_for_log('"event":"connection_not_started"')
+        store("between")
+        self.assertEqual(put("CAQ", new).json["code"], "path.malformed")
+        self.assertEqual(put("caq", new).status, 200)
+        store("after")
+        wait_for(lambda: written(new) == ["between", "after"], lambda: written(new))
 
 
 if __name__ == "__main__":
