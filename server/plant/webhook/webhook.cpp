@@ -163,8 +163,9 @@ class Webhook final : public Outlet {
   HttpAnswer send(std::string_view id, std::string_view event, const std::stop_token& stop) {
     const std::string made = options_.body.is_empty() ? "" : options_.body.body_of(id, event);
     const std::string_view body = made.empty() ? event : made;
+    // By the clock of the machine: received times, which may be ahead of it, would be refused.
     const std::string timestamp =
-        std::to_string(plant_.clock.now().nanoseconds / kNanosecondsPerSecond);
+        std::to_string(SystemClock().now().nanoseconds / kNanosecondsPerSecond);
     std::vector<std::string> headers = {
         "Content-Type: application/json", fmt::format("webhook-id: {}", id),
         fmt::format("webhook-timestamp: {}", timestamp),

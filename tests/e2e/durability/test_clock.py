@@ -3,11 +3,14 @@
 import contextlib
 import json
 import sqlite3
+import time
 import unittest
 from datetime import datetime
 
 from support.clock import ClockTest
+from support.receiver import Receiver
 from support.waiting import wait_for
+from support.webhooks import PRIVATE, SECRETS
 
 PART = {"designation": "25 H7", "measured_mm": 25.013}
 KEY = {"Idempotency-Key": "before"}
@@ -96,3 +99,22 @@ class SetBack(ClockTest):
         self.assertEqual(self.warnings("purged"), [])
         self.daemon.start()
         self.check(records)
+
+
+class Signed(ClockTest):
+    flags = PRIVATE
+
+    def test_a_receiver_that_looks_at_its_clock_accepts_webhooks_after_a_jump(self):
+        receiver = Receiver()
+        self.addCleanup(receiver.close)
+        self.daemon.start()
+        connected = self.daemon.request("PUT", "/v1/connections/mes", {
+            "kind": "webhook", "url": receiver.url, "secrets": SECRETS[:1]})
+        self.assertEqual(connected.status, 201, connected)
+        for offset in ("+2d", "+0"):
+            self.set_clock(offset)
+            ahead = self.daemon.measure(PART).json["received_at"]
+        self.assertGreater(datetime.fromisoformat(ahead).timestamp(), time.time() + 86_400)
+        receiver.wait(lambda: len(receiver.distinct()) == 2)
+        sent_at = int(receiver.events[-1]["headers"]["webhook-timestamp"])
+        self.assertLess(abs(sent_at - time.time()), 600)
