@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <sys/inotify.h>
 
+#include "api/services.hpp"
 #include "base/thread.hpp"
 #include "plant/kind.hpp"
 
@@ -18,18 +19,11 @@ bool is_values_alone(std::string_view name) { return ascii_lower(name).ends_with
 /// Whether it is the description of such a file: a DFD.
 bool is_description(std::string_view name) { return ascii_lower(name).ends_with(".dfd"); }
 
-/// Whether an error is one of the storage, not of the file.
-bool is_of_storage(const Error& error) {
-  switch (error.code) {
-    case ErrorCode::StorageBusy:
-    case ErrorCode::StorageUnavailable:
-    case ErrorCode::StorageCorrupt:
-    case ErrorCode::ShuttingDown:
-    case ErrorCode::TablesInconsistent:
-    case ErrorCode::IdempotencyInProgress:
-    case ErrorCode::Internal: return true;
-    default: return false;
-  }
+/// Whether an error is one of the service, not of the file.
+bool is_of_service(const Error& error) {
+  constexpr int kFirstOfServer = 500;
+  return api::status_of(error.code) >= kFirstOfServer ||
+         error.code == ErrorCode::IdempotencyInProgress;
 }
 
 /// Stores the files of a folder, each once, and moves them to its folder `done`; a wrong file goes
@@ -158,7 +152,7 @@ class FolderIn final : public Worker {
     const auto taken =
         take_file(options_, plant_, name, files[0], files.size() > 1 ? &files[1] : nullptr);
     if (!taken) {
-      if (is_of_storage(taken.error())) return taken.error().message;
+      if (is_of_service(taken.error())) return taken.error().message;
       return fail(folder, names, taken.error());
     }
     if (!*taken) {

@@ -337,15 +337,22 @@ class Stations(Restored):
         self.store(self.station, "s1")
         self.drained()
         self.station.stop()
-        twin = self.made("--origin-name", "press", "--forward-to", f"http://{self.centre.listen}")
+        watched = self.station.folder / "watched"
+        watched.mkdir()
+        twin = self.made("--origin-name", "press", "--forward-to", f"http://{self.centre.listen}",
+                         "--connection-folders", watched)
         shutil.copytree(self.station.data, twin.data)
         self.station.start()
         twin.start()
+        connected = twin.request("PUT", "/v1/connections/cmm", {
+            "kind": "folder_in", "folder": str(watched), "interval_s": 1, "rest_s": 1})
+        self.assertEqual(connected.status, 201, connected)
         self.store(self.station, "first")
         self.drained()
         self.store(twin, "twin")
         wait_for(lambda: twin.get("/readyz").status == 503, lambda: twin.log)
         self.assertEqual(twin.get("/readyz").json["code"], "log.forked")
+        (watched / "cmm.csv").write_text("designation,measured_mm\n25 H7,25.01\n")
         for restarted in (False, True):
             if restarted:
                 twin.stop()
@@ -358,6 +365,8 @@ class Stations(Restored):
                 self.assertEqual((answer.status, answer.json["code"]), (503, "log.forked"), path)
             self.assertEqual(twin.post("/v1/statistics/summary", {"values": [1, 2]}).status, 200, "nothing is stored")
             self.assertEqual(len(twin.stored()), 2, "what is there is read")
+            self.assertIn("ids would repeat", twin.connection_in("cmm", "failing")["last_error"])
+            self.assertEqual([file.name for file in watched.iterdir()], ["cmm.csv"], "it is no wrong file")
         self.store(self.station, "second")
         self.drained()
         self.assertEqual(sorted(self.there().values()), ["first", "s1", "second"])
