@@ -52,10 +52,11 @@ Error invalid_from(std::string message) {
 }
 
 /// Returns the number of an event of this data folder; none for another id.
-std::optional<std::int64_t> event_number(std::string_view id, std::string_view origin) {
+std::optional<std::int64_t> event_number(std::string_view id, const app::EventService& events) {
   const std::size_t dash = id.find('-');
-  const bool is_own = id.starts_with('e') && dash != id.npos && id.substr(dash + 1) == origin;
-  return is_own ? read_number<std::int64_t>(id.substr(1, dash - 1)) : std::nullopt;
+  if (!id.starts_with('e') || dash == id.npos) return std::nullopt;
+  const auto number = read_number<std::int64_t>(id.substr(1, dash - 1));
+  return number && events.is_of(id.substr(dash + 1), *number) ? number : std::nullopt;
 }
 
 /// Returns the row of the first measurement that was received then or later; none if there is none.
@@ -142,7 +143,7 @@ Result<void> move_back(Progress& progress, const ReplayOrder& order, const Plant
       const auto last = TRY(last_event_before(*time, plant));
       event = std::min(last, *progress.event);
     }
-  } else if (const auto number = event_number(order.from, plant.origin)) {
+  } else if (const auto number = event_number(order.from, plant.events)) {
     if (!progress.event) return invalid_from("the connection sends no events beside measurements");
     event = *number - 1;
   } else {

@@ -109,6 +109,10 @@ class EventService : Records {
     return event_id_text(position, origins_.own());
   }
 
+  /// Whether a stored event with this number was given its id in that history.
+  bool is_of(std::string_view history, std::int64_t stored) const {
+    return !history.empty() && origins_.number(history, stored, Counted::Event) == 0;
+  }
   /// A single event that is in no other table.
   struct Stored : store::Event {
     std::string_view history{};  ///< in which it was given its id

@@ -96,6 +96,11 @@ class Folders(Restored):
         wait_for(lambda: {event["event"]["data"]["part_id"] for event in receiver.events
                           if event["event"]["type"] == "measurement.recorded"} >= {"n6", "n7", "n8"}, receiver.ids)
         wait_for(lambda: len(receiver.distinct()) == 11, receiver.ids)
+        # A replay begins at an event of the copy too, and at none that went beyond.
+        of_kept, of_lost, of_new = (name for name in receiver.distinct() if name.startswith("e"))
+        for place, status in ((of_new, 200), (of_lost, 422), (of_kept, 200)):
+            answer = daemon.post("/v1/connections/mes/replay", {"from": place})
+            self.assertEqual(answer.status, status, answer)
         # What the copy holds has its id, and its place; what went beyond is foreign.
         self.assertEqual([record["id"] for record in daemon.stored()], kept + new)
         for known in kept:
