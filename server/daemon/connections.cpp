@@ -176,6 +176,10 @@ Result<std::vector<Definition>> read_connections(const std::string& path) {
         return invalid(item.source().begin.line,
                        fmt::format("the connection '{}' occurs twice", definition.name));
       }
+      for (const Definition& other : definitions) {
+        if (const auto fault = connections::fault_of_both(definition, other))
+          return invalid(item.source().begin.line, *fault);
+      }
       definitions.push_back(std::move(definition));
     }
   }

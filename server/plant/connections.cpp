@@ -33,6 +33,45 @@ bool is_same(const JsonValue& a, const JsonValue& b, std::string_view name) {
   return in_a->text == in_b->text;
 }
 
+/// Whether a name can match both patterns with * and ?; letters count in either case.
+bool overlap(std::string_view one, std::string_view other) {
+  // Whether their ends from `i` (or `i` + 1) and `j` on have a common name.
+  std::vector<bool> here(other.size() + 1);
+  std::vector<bool> next;
+  for (std::size_t i = one.size() + 1; i-- > 0;) {
+    next = std::exchange(here, std::vector<bool>(other.size() + 1));
+    for (std::size_t j = other.size() + 1; j-- > 0;) {
+      const bool has_one = i < one.size();
+      const bool has_other = j < other.size();
+      if (has_one && one[i] == '*') {
+        here[j] = next[j] || (has_other && here[j + 1]);
+      } else if (has_other && other[j] == '*') {
+        here[j] = here[j + 1] || (has_one && next[j]);
+      } else if (has_one && has_other) {
+        const bool is_equal =
+            one[i] == '?' || other[j] == '?' || ascii_lower(one[i]) == ascii_lower(other[j]);
+        here[j] = is_equal && next[j + 1];
+      } else {
+        here[j] = has_one == has_other;
+      }
+    }
+  }
+  return here[0];
+}
+
+bool overlap(const std::vector<std::string>& some, const std::vector<std::string>& others) {
+  return std::ranges::any_of(some, [&](const std::string& one) {
+    return std::ranges::any_of(others,
+                               [&](const std::string& other) { return overlap(one, other); });
+  });
+}
+
+bool is_same_folder(const std::filesystem::path& one, const std::filesystem::path& other) {
+  std::error_code failure;
+  return std::filesystem::weakly_canonical(one, failure) ==
+         std::filesystem::weakly_canonical(other, failure);
+}
+
 constexpr std::size_t kMostWaiting = 64;
 constexpr std::size_t kTestsAtOnce = 8;
 
@@ -101,6 +140,22 @@ Result<Definition> read_definition(std::string name, const JsonValue& body,
   return definition;
 }
 
+std::optional<std::string> fault_of_both(const Definition& one, const Definition& other) {
+  const auto& mine = one.settings.folder;
+  const auto& its = other.settings.folder;
+  if (!mine || !its || !is_same_folder(mine->folder, its->folder)) return std::nullopt;
+  const auto fault = [](const Definition& in, std::string_view what, const Definition& second) {
+    return fmt::format(
+        "'{}' would store again what '{}' {} this folder: choose another folder, or "
+        "other names",
+        in.name, second.name, what);
+  };
+  if (overlap(mine->reads, its->reads)) return fault(one, "takes from", other);
+  if (overlap(mine->reads, its->writes)) return fault(one, "writes into", other);
+  if (overlap(its->reads, mine->writes)) return fault(other, "writes into", one);
+  return std::nullopt;
+}
+
 Connections::Connections(Plant plant)
     : plant_(std::move(plant)),
       changes_("connections", 1, kMostWaiting),
@@ -127,11 +182,13 @@ Result<std::unique_ptr<Connections>> Connections::start(std::vector<Definition> 
     const auto body = parse_stored_json(document.text, "a connection");
     auto definition =
         body ? read_definition(document.name, *body, {.roots = all->plant_.folders}) : body.error();
-    if (definition) {
-      all->begin(*std::move(definition));
-    } else {
+    if (!definition) {
       const Error& error = definition.error();
       not_started(error.details.empty() ? error.message : error.details.front().message);
+    } else if (const auto fault = all->fault_with_others(*definition)) {
+      not_started(*fault);
+    } else {
+      all->begin(*std::move(definition));
     }
   }
   return all;
@@ -164,6 +221,16 @@ std::optional<Definition> Connections::find(std::string_view name) const {
   const std::lock_guard lock(mutex_);
   const auto found = entries_.find(ascii_lower(name));
   return found == entries_.end() ? std::nullopt : std::optional(found->second.definition);
+}
+
+std::optional<std::string> Connections::fault_with_others(const Definition& definition) const {
+  const std::string own = ascii_lower(definition.name);
+  const std::lock_guard lock(mutex_);
+  for (const auto& [key, entry] : entries_) {
+    if (key == own) continue;
+    if (auto fault = fault_of_both(definition, entry.definition)) return fault;
+  }
+  return std::nullopt;
 }
 
 Result<std::optional<Definition>> Connections::find_stored(std::string_view name) const {
@@ -230,6 +297,11 @@ Result<bool> Connections::put(const std::string& name, std::string_view body,
   auto json = TRY(parse_json(body));
   if (before) keep_secrets(json, *before);
   auto definition = TRY(read_definition(name, json, {.roots = plant_.folders}));
+  if (auto fault = fault_with_others(definition)) {
+    api::FieldErrors errors;
+    errors.add(ErrorCode::FieldInvalid, "/folder", *std::move(fault));
+    return *errors.take();
+  }
   if (const auto& follower = definition.settings.follower) {
     // Stores the start before the connection exists: it misses nothing after the response.
     if (!before) TRY(forget_progress(plant_.documents, name));

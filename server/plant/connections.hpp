@@ -32,6 +32,10 @@ void keep_secrets(JsonValue& body, const Definition& before);
 Result<Definition> read_definition(std::string name, const JsonValue& body,
                                    const FolderPermissions& allowed);
 
+/// Returns why both must not run: one would store again what the other takes or writes. None: they
+/// may.
+std::optional<std::string> fault_of_both(const Definition& one, const Definition& other);
+
 /// The most connections there may be.
 inline constexpr std::size_t kMostConnections = 100;
 
@@ -40,7 +44,8 @@ inline constexpr std::size_t kMostConnections = 100;
 class Connections {
  public:
   /// Starts the connections of `configured` and of the storage. A stored connection that is
-  /// unreadable, or has a name of the file, is logged and not started.
+  /// unreadable, has a name of the file, or must not run together with another one, is logged and
+  /// not started.
   /// @errors those of the storage.
   static Result<std::unique_ptr<Connections>> start(std::vector<Definition> configured,
                                                     Plant plant);
@@ -86,6 +91,8 @@ class Connections {
   void end(const std::string& key);
   /// Returns the connection whose name differs at most in upper and lower case.
   std::optional<Definition> find(std::string_view name) const;
+  /// Returns why it must not run together with the other connections; none: it may.
+  std::optional<std::string> fault_with_others(const Definition& definition) const;
   /// Returns name and text of the stored connection of such a name, which may not have started.
   /// Blocks. @errors those of storage.
   Result<std::optional<Definition>> find_stored(std::string_view name) const;

@@ -28,6 +28,13 @@ void follower_members(V& v, FollowerOptions& options) {
   });
 }
 
+/// A folder that a connection takes files from, or writes files to.
+struct FolderUse {
+  std::filesystem::path folder{};
+  std::vector<std::string> reads{};   ///< names of files, with * and ?
+  std::vector<std::string> writes{};  ///< such names
+};
+
 /// The settings of one connection, as its kind has read them.
 struct Settings {
   /// Starts the connection. @param plant must outlive it.
@@ -35,6 +42,7 @@ struct Settings {
   /// Tests the other side once, independently of the worker. Blocks up to half a minute.
   std::function<TestResult(const Plant& plant, const std::stop_token& stop)> test;
   std::optional<FollowerOptions> follower{};  ///< of an outgoing connection
+  std::optional<FolderUse> folder{};          ///< of a folder in or out
 };
 
 /// A kind of connection: its settings, work and test are in its folder, its name is in kinds.inc.
@@ -51,7 +59,8 @@ const std::vector<Kind>& kinds();
 /// A kind whose folder defines for its options
 ///   `void members(V&, Options&)`, see base/json/body.hpp,
 ///   `make(const Options&, const Plant&)`, the Worker or, of options with a follower, the Outlet,
-///   `TestResult test_of(const Options&, const Plant&, const std::stop_token&)`.
+///   `TestResult test_of(const Options&, const Plant&, const std::stop_token&)`,
+/// and `FolderUse folder_of(const Options&)` if it uses a folder.
 template <class Options>
 Kind kind_of(std::string_view kind) {
   static constexpr bool kFollows = requires(Options options) { options.follower; };
@@ -76,6 +85,7 @@ Kind kind_of(std::string_view kind) {
       members(body, *options);
       settings.start = [options](const Plant& plant) { return make(*options, plant); };
     }
+    if constexpr (requires { folder_of(*options); }) settings.folder = folder_of(*options);
     settings.test = [options](const Plant& plant, const std::stop_token& stop) {
       return test_of(*options, plant, stop);
     };

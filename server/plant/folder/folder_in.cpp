@@ -320,6 +320,10 @@ void members(V& v, FolderInOptions& options) {
              "Seconds without a change of a file's size and time (default: 2)");
 }
 
+FolderUse folder_of(const FolderInOptions& options) {
+  return {.folder = options.folder, .reads = options.names};
+}
+
 std::unique_ptr<Worker> make(const FolderInOptions& options, const Plant& plant) {
   return std::make_unique<FolderIn>(options, plant);
 }

@@ -46,6 +46,14 @@ std::string plain(std::string_view key) {
   return name;
 }
 
+/// Returns NAME-FIRST-LAST.csv, with `more` before the ending.
+std::string file_name(const FolderOutOptions& options, std::int64_t first, std::int64_t last,
+                      std::string_view more) {
+  constexpr std::array<std::string_view, 4> kEndings = {".csv", ".ndjson", ".dfq", ".qif"};
+  return fmt::format("{}-{:012}-{:012}{}{}", options.follower.name, first, last, more,
+                     kEndings.at(static_cast<std::size_t>(options.format)));
+}
+
 /// Whether the name is taken by anything but a file with this text.
 bool has_other(const Folder& folder, const std::string& name, std::string_view text) {
   if (!folder.look(name)) return false;
@@ -132,15 +140,11 @@ class FolderOut final : public Outlet {
 
   /// Returns a name that no file with another content has.
   std::string name_of(const File& file, const Folder& folder) const {
-    std::string name =
-        fmt::format("{}-{:012}-{:012}", options_.follower.name, file.first, file.last);
-    if (plant_.is_branch) name += "-" + plant_.origin;
-    if (!file.key.empty()) name += "-" + plain(file.key);
-    constexpr std::array<std::string_view, 4> kEndings = {".csv", ".ndjson", ".dfq", ".qif"};
-    const std::string_view ending = kEndings.at(static_cast<std::size_t>(options_.format));
-    std::string free = fmt::format("{}{}", name, ending);
+    std::string more = plant_.is_branch ? "-" + plant_.origin : "";
+    if (!file.key.empty()) more += "-" + plain(file.key);
+    std::string free = file_name(options_, file.first, file.last, more);
     for (int number = 2; has_other(folder, free, file.text); ++number) {
-      free = fmt::format("{}-{}{}", name, number, ending);
+      free = file_name(options_, file.first, file.last, fmt::format("{}-{}", more, number));
     }
     return free;
   }
@@ -148,6 +152,10 @@ class FolderOut final : public Outlet {
   const FolderOutOptions options_;
   const Plant& plant_;
 };
+
+FolderUse folder_of(const FolderOutOptions& options) {
+  return {.folder = options.folder, .writes = {file_name(options, 1, 1, "")}};
+}
 
 /// The form of a text that is written in this field of a DFQ.
 auto part_text(std::size_t longest, int field) {

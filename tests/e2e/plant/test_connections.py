@@ -7,7 +7,7 @@ import tempfile
 import threading
 import unittest
 
-from support.daemon import Daemon, DaemonTest
+from support.daemon import Daemon, DaemonTest, command
 from support.waiting import wait_for
 
 CONTROL = {"kind": "lsv2", "address": "127.0.0.1:1", "paths": ["TNC:\\logs\\*.TXT"], "interval_s": 3600}
@@ -105,6 +105,15 @@ class Configured(unittest.TestCase):
         self.assertEqual([(each["name"], each["read_only"]) for each in found], [("other", True)])
         self.assertEqual(daemon.stop(), 0)  # its log is written
         self.assertIn("connection_not_started", daemon.log)
+
+    def test_the_file_must_not_store_again_what_it_writes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "connections.toml"
+            path.write_text("".join(f'[[connection]]\nname = "{name}"\nkind = "{kind}"\nfolder = "{folder}"\n'
+                                    for name, kind in (("cmm", "folder_in"), ("caq", "folder_out"))))
+            checked = command("--connections", path, "--data", folder, "--check-config")
+        self.assertEqual(checked.returncode, 2)
+        self.assertIn("connections.toml:5: 'cmm' would store again what 'caq' writes", checked.stderr)
 
     def test_one_that_was_not_started_keeps_its_position(self):
         root = tempfile.TemporaryDirectory()

@@ -408,6 +408,18 @@ class Writing(Folders):
                                                               "split": "day", "every_s": 0}).json
         self.assertEqual(sorted(e["pointer"] for e in problem["errors"]), ["/every_s", "/folder", "/format", "/split"])
 
+    def test_what_is_written_or_taken_is_not_stored_again(self):
+        daemon = self.daemon().start()
+        self.out(daemon)
+        os.symlink(self.folder, self.root / "link")
+        problem = self.connect(daemon, 422, folder=str(self.root / "link"))
+        self.assertIn("'cmm' would store again what 'caq' writes", problem["detail"])
+        self.connect(daemon, 201, names=["cmm*.csv"])
+        self.out(daemon, 422, name="cmm-2")
+        problem = self.connect(daemon, 422, name="other", names=["x.csv", "?MM*3.*"])
+        self.assertIn("'other' would store again what 'cmm' takes", problem["detail"])
+        self.connect(daemon, 201, name="other", names=["x.csv", "?nn*3.*"])
+
     def test_another_filter_leaves_out_what_was_planned(self):
         daemon = self.daemon().start()
         self.folder.rmdir()
