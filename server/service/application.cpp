@@ -196,9 +196,12 @@ Result<std::optional<Timestamp>> Application::newest_measurement() const {
 Result<std::string> Application::backup(const std::filesystem::path& file) const {
   // Reads the checkpoint first: the copy is made after it, and so has everything it covers. A
   // running daemon signs its rows within a second.
-  const auto rows = database_->readers().wait(
-      [](const Stores& stores) { return stores.measurements.log_size(); });
-  const auto wanted = static_cast<std::uint64_t>(rows ? *rows : 0);
+  const auto stored = [this] {
+    const auto rows = database_->readers().wait(
+        [](const Stores& stores) { return stores.measurements.log_size(); });
+    return static_cast<std::uint64_t>(rows ? *rows : 0);
+  };
+  const std::uint64_t wanted = stored();
   const auto newest = [this] {
     const auto note = read_small_file(directory_ / kCheckpointFile);
     return note && *note ? **note : std::string();
@@ -221,6 +224,12 @@ Result<std::string> Application::backup(const std::filesystem::path& file) const
         "its checkpoint covers {} of {} measurements: the service signs the others at the next "
         "start",
         covered, wanted);
+  }
+  if (const std::uint64_t now = stored(); covered > now) {
+    return fmt::format(
+        "its checkpoint covers {} measurements, and the database has only {}: it is an older copy, "
+        "and the service was not started on it yet",
+        covered, now);
   }
   return fmt::format("its checkpoint covers the {} measurements stored before it", covered);
 }
