@@ -61,9 +61,15 @@ struct BodyRules {
   /// Lower case, without parameters; empty accepts any or none. Charset may only be UTF-8.
   std::vector<std::string> media_types{};
   std::size_t limit = std::size_t{1} << 20;  ///< bytes, after decompression
+  std::string other_type{};                  ///< a media type with another limit
+  std::size_t other_limit = 0;               ///< the limit of this type
   bool spools = false;                       ///< above 1 MiB on disk: Request::file_body()
   std::string when_too_large{};              ///< remedy, after "…: "
   std::string schema{};                      ///< of its JSON form, by name
+
+  std::size_t limit_of(std::string_view media_type) const {
+    return !other_type.empty() && media_type == other_type ? other_limit : limit;
+  }
 };
 
 /// A success of a route, for the API's description.

@@ -171,8 +171,7 @@ constexpr std::string_view kStep = "model/step";
 Result<CheckedDocument> check_plan(const Services& services, const std::string& part,
                                    std::string_view text) {
   if (text.size() > kLongestJson) {
-    return Error{ErrorCode::BodyTooLarge,
-                 "a plan in JSON must have at most 1048576 bytes; send a drawing as model/step"};
+    return Error{ErrorCode::BodyTooLarge, "a plan must have at most 1048576 bytes"};
   }
   const auto body = TRY(parse_json(text));
   const auto tables = TRY(services.tables.tables());

@@ -195,7 +195,8 @@ void add_document_routes(Routes& add, const KindOfDocument& kind) {
                     {.status = 201, .meaning = "Created", .schema = answered}}});
   if (!kind.other_type.empty()) {
     add.all.back().body.media_types.emplace_back(kind.other_type);
-    add.all.back().body.limit = kind.longest_other;
+    add.all.back().body.other_type = kind.other_type;
+    add.all.back().body.other_limit = kind.longest_other;
     add.all.back().body.spools = true;
   }
   add(fmt::format("DELETE {} delete{} admin 404 409 412", pattern, kind.operation),

@@ -301,21 +301,22 @@ std::optional<Refusal> Exchange::check_body() {
   gzip_ = ascii_iequals(coding, "gzip") || ascii_iequals(coding, "x-gzip");
   if (!gzip_ && !ascii_iequals(coding, "identity"))
     return Refusal{415, ErrorCode::EncodingUnsupported, "Content-Encoding must be gzip"};
-  if (head_->content_length.value_or(0) > rules.limit) return body_too_large();
+  if (head_->content_length.value_or(0) > rules.limit_of(request_.media_type_))
+    return body_too_large();
   return std::nullopt;
 }
 
 Refusal Exchange::body_too_large() const {
   const BodyRules& rules = request_.route_->body;
   return {413, ErrorCode::BodyTooLarge,
-          fmt::format("the body must have at most {} bytes{}{}{}", rules.limit,
-                      gzip_ ? " after decompression" : "", rules.when_too_large.empty() ? "" : ": ",
-                      rules.when_too_large)};
+          fmt::format("the body must have at most {} bytes{}{}{}",
+                      rules.limit_of(request_.media_type_), gzip_ ? " after decompression" : "",
+                      rules.when_too_large.empty() ? "" : ": ", rules.when_too_large)};
 }
 
 BodyReader::Plan Exchange::body_plan() const {
   const BodyRules& rules = request_.route_->body;
-  return {.limit = rules.limit,
+  return {.limit = rules.limit_of(request_.media_type_),
           .gzip = gzip_,
           .discard = rules.use == BodyUse::None,
           .spools = rules.spools};

@@ -43,17 +43,20 @@ class Drawings(ClientTest):
         self.assert_problem(self.daemon.request("PUT", "/v1/plans/no", b'{"name":"' + b"x" * (1 << 20) + b'"}', {"Content-Type": "application/json"}),
                             413, "request.body_too_large")
 
-    def test_two_gigabytes_are_refused_before_they_are_sent(self):
-        for method, path in (("POST", "/v1/drawings"), ("PUT", "/v1/plans/no")):
+    def test_a_body_that_is_too_long_is_refused_before_it_is_sent(self):
+        for method, path, media_type, most in (
+                ("POST", "/v1/drawings", "model/step", 64 << 20), ("PUT", "/v1/plans/no", "model/step", 64 << 20),
+                ("PUT", "/v1/plans/no", "application/json", 1 << 20)):
             connection = self.daemon.connect()
             self.addCleanup(connection.close)
             connection.putrequest(method, path)
-            for field in (*STEP.items(), ("Content-Length", str(2 << 30))):
+            for field in (("Content-Type", media_type), ("Content-Length", str(most + 1))):
                 connection.putheader(*field)
             connection.endheaders()
-            answer = connection.getresponse()
-            self.assertEqual(answer.status, 413)
-            self.assertIn(b"67108864 bytes", answer.read())
+            with self.subTest(path=path, media_type=media_type):
+                answer = connection.getresponse()
+                self.assertEqual(answer.status, 413)
+                self.assertIn(b"at most %d bytes" % most, answer.read())
 
     @unittest.skipIf(SANITIZED, "a sanitizer keeps what was freed")
     def test_the_largest_drawing_stays_on_disk_and_takes_eight_bytes_an_instance(self):
