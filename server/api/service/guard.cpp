@@ -20,18 +20,18 @@ bool is_write(http::Method method) {
          method != http::Method::Options;
 }
 
-/// `Authorization: Bearer fg_…`, or `X-API-Key: fg_…` for clients that cannot set the former.
-/// Empty for credentials of another scheme.
-std::optional<std::string_view> token_of(const Request& request) {
+/// `Authorization: Bearer fg_…` and `X-API-Key: fg_…`, which is for clients whose Authorization
+/// belongs to another service. Empty if absent or of another scheme.
+std::array<std::string_view, 2> tokens_of(const Request& request) {
   constexpr std::string_view kScheme = "bearer ";
-  if (const auto header = request.header("Authorization")) {
-    const std::string_view text = trim(*header);
-    if (ascii_iequals(text.substr(0, kScheme.size()), kScheme))
-      return trim(text.substr(kScheme.size()));
-    return std::string_view();
-  }
-  if (const auto header = request.header("X-API-Key")) return trim(*header);
-  return std::nullopt;
+  const std::string_view text = trim(request.header("Authorization").value_or(""));
+  const bool is_bearer = ascii_iequals(text.substr(0, kScheme.size()), kScheme);
+  return {is_bearer ? trim(text.substr(kScheme.size())) : std::string_view(),
+          trim(request.header("X-API-Key").value_or(""))};
+}
+
+bool has_credentials(const Request& request) {
+  return request.header("Authorization") || request.header("X-API-Key");
 }
 
 Error invalid_key() { return {ErrorCode::KeyInvalid, "the key is unknown or revoked"}; }
@@ -87,16 +87,16 @@ Result<std::optional<Response>> Guard::operator()(Request& request,
   if (closed_ && is_write(request.method()) && needed() != app::Role::Viewer) {
     if (auto why = closed_()) return *std::move(why);
   }
-  const auto token = token_of(request);
   std::optional<app::KnownCaller> caller;
-  if (token && !token->empty()) {
-    caller = keys_.find(*token);
+  for (const std::string_view token : tokens_of(request)) {
+    if (caller || token.empty()) continue;
+    caller = keys_.find(token);
     // Other text belongs to a proxy or another service and is ignored.
-    if (!caller && token->starts_with(kTokenPrefix)) return invalid_key();
-    if (caller && caller->is_expired)
-      return Error{ErrorCode::KeyExpired, "the key " + caller->name + " has expired"};
-    if (caller) request.set_caller(Caller{caller->name, caller->key});
+    if (!caller && token.starts_with(kTokenPrefix)) return invalid_key();
   }
+  if (caller && caller->is_expired)
+    return Error{ErrorCode::KeyExpired, "the key " + caller->name + " has expired"};
+  if (caller) request.set_caller(Caller{caller->name, caller->key});
   const bool is_open = mode_ != AuthMode::Keys && access == "open" && !is_foreign;
   if (mode_ == AuthMode::Open && !is_foreign && request.is_local() &&
       (is_open || !may_be_rebound(request))) {
@@ -105,7 +105,7 @@ Result<std::optional<Response>> Guard::operator()(Request& request,
   }
   if (is_open) return std::optional<Response>();
   if (!caller) {
-    if (token) return invalid_key();
+    if (has_credentials(request)) return invalid_key();
     return Error{ErrorCode::Unauthenticated,
                  "send a key: `Authorization: Bearer fg_…`; an administrator creates keys with "
                  "`fitgauged key create`"};

@@ -180,8 +180,10 @@ class Keys(Callers):
                         self.assertIn(answer.status, (200, 201, 204), answer)
                     else:
                         self.assertNotEqual(answer.status, 403, answer)
-        record = self.daemon.measure(PART, {"X-API-Key": tokens["operator"]}).json
-        self.assertEqual(record["caller"], "operator-1")
+        for of_another in ({}, {"Authorization": "Basic dXNlcjpwYXNz"}, {"Authorization": "Bearer of-another-service"}):
+            answer = self.daemon.measure(PART, {"X-API-Key": tokens["operator"], **of_another})
+            with self.subTest(of_another):
+                self.assertEqual((answer.status, answer.json.get("caller")), (201, "operator-1"), answer)
 
     def test_keys_that_are_none(self):
         for value in ("Bearer nonsense", "Bearer ", "Basic dXNlcjpwYXNz", "Bearer fg_" + "0" * 40):
