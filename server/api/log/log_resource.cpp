@@ -1,4 +1,5 @@
 #include "api/resources.hpp"
+#include "api/wire/request_facts.hpp"
 #include "base/json/json_writer.hpp"
 #include "service/log/log_service.hpp"
 #include "service/measurements/measurement_service.hpp"
@@ -114,8 +115,8 @@ void list_changes(const Services& services, const Request& request, Responder re
                         .to_ns = time_of(request, "to")},
                        std::string(request.text("after").value_or("0")),
                        request.integer("limit").value_or(100),
-                       answer_with(std::move(responder), [](const auto& page) {
-                         return json_response(json_object([&page](JsonWriter& json) {
+                       answer_with(std::move(responder), [&request](const auto& page) {
+                         auto response = json_response(json_object([&page](JsonWriter& json) {
                            json.key("changes").begin_array();
                            for (const std::string& change : page.changes) json.raw(change);
                            json.end_array().key("next");
@@ -123,6 +124,8 @@ void list_changes(const Services& services, const Request& request, Responder re
                            json.key("last");
                            page.last.empty() ? json.null() : json.value(page.last);
                          }));
+                         if (page.has_more) response->with("Link", next_link(request, page.last));
+                         return response;
                        }));
 }
 

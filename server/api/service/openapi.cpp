@@ -139,7 +139,7 @@ constexpr DescribedHeader kHeaders[] = {
      [](const auto& route, int) { return takes(route, "Prefer"); }},
     {"Link", "The next page, rel=\"next\"",
      [](const auto& route, int status) {
-       return status == 200 && is_get(route) && takes(route, "after");
+       return status == 200 && is_get(route) && takes(route, "after") && takes(route, "limit");
      }},
     {"Content-Disposition", "The name of the file",
      [](const auto& route, int status) {

@@ -80,11 +80,13 @@ class Changes(DaemonTest):
         for number in range(5):
             self.put(f"/v1/uncertainties/page-{number}", BUDGET)
         all_of_them = self.changes()
-        ids, after = [], ""
-        while after is not None:
-            page = self.daemon.get(f"/v1/changes?limit=2{after and '&after=' + after}").json
-            ids += [each["id"] for each in page["changes"]]
-            after = page["next"]
+        ids, path = [], "/v1/changes?limit=2"
+        while path:
+            answer = self.daemon.get(path)
+            ids += [each["id"] for each in answer.json["changes"]]
+            after = answer.json["next"]
+            path = after and f"/v1/changes?limit=2&after={after}"
+            self.assertEqual(answer.headers.get("link"), path and f'<{path}>; rel="next"')
         self.assertEqual(ids, [each["id"] for each in all_of_them])
         at = all_of_them[-2]["at"]
         self.assertEqual(self.changes(f"to={at}") + self.changes(f"from={at}"), all_of_them)
