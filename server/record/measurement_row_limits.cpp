@@ -34,10 +34,11 @@ void MeasurementRowReader::resolve_limits() {
                           (given(RowField::Feature) && !open_feature);
   const int ways = int{by_designation} + int{by_class} + int{by_drawing};
   if (ways > 1 || (by_designation && given(RowField::Nominal))) {
-    const std::size_t second = by_designation ? (given(RowField::Nominal) ? RowField::Nominal
-                                                 : by_class               ? RowField::Class
-                                                                          : RowField::Feature)
-                                              : RowField::Class;
+    constexpr std::size_t kOthers[] = {RowField::Nominal, RowField::Class, RowField::Upper,
+                                       RowField::Lower, RowField::Feature};
+    const std::size_t second =
+        by_designation ? *std::ranges::find_if(kOthers, [&](auto field) { return given(field); })
+                       : RowField::Class;
     report(ErrorCode::FieldConflict, kRowFields[second].name,
            "give the limits once: designation, or nominal_mm with tolerance_class, or nominal_mm "
            "with feature, and upper_um, lower_um or both");
@@ -159,6 +160,7 @@ void MeasurementRowReader::resolve_designation() {
 }
 
 void MeasurementRowReader::resolve_explicit() {
+  if (is_unread(RowField::Quantity, draft_.quantity)) return;
   const gauging::Quantity quantity = draft_.quantity.value_or(gauging::Quantity::Diameter);
   const bool has_feature = gauging::has_feature(quantity);
   if (!has_feature && given(RowField::Feature)) {
@@ -173,7 +175,9 @@ void MeasurementRowReader::resolve_explicit() {
            "give upper_um, lower_um or both with feature; for a value without limits give quantity "
            "without feature");
   }
-  if (!draft_.nominal || !one_given || draft_.failed) return;
+  const bool are_read =
+      !is_unread(RowField::Upper, draft_.upper) && !is_unread(RowField::Lower, draft_.lower);
+  if (!draft_.nominal || !one_given || !are_read) return;
   const Length upper = draft_.upper.value_or(app::kNoLimit);
   const Length lower = draft_.lower.value_or(-app::kNoLimit);
   app::Measurement& m = draft_.measurement;

@@ -362,7 +362,7 @@ const app::Measurement* MeasurementRowReader::end() {
   }
   if (draft_.quantity) m.quantity = draft_.quantity;
   if (!draft_.has_limits) resolve_limits();
-  if (draft_.measured) {
+  if (draft_.measured && !is_unread(RowField::Quantity, draft_.quantity)) {
     m.measured = *draft_.measured;
     const auto checked =
         check_measured(m.measured, m.quantity.value_or(gauging::Quantity::Diameter));

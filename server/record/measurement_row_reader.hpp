@@ -155,6 +155,11 @@ class MeasurementRowReader {
   std::optional<std::string_view> text(std::size_t field, const RawValue& value);
   std::optional<std::int64_t> truth(std::size_t field, const RawValue& value);
   bool given(std::size_t field) const { return (draft_.given >> field & 1) != 0; }
+  /// Whether the field was given and is reported already.
+  template <class T>
+  bool is_unread(std::size_t field, const std::optional<T>& value) const {
+    return given(field) && !value;
+  }
 
   void apply_gauge();
   const GaugeInUse* find_gauge(std::string_view name);

@@ -92,6 +92,10 @@ TEST_CASE("limits are given once, in one of three ways") {
   CHECK_FALSE(drawing.class_name.has_value());
   CHECK(complaints(R"({"designation":"25 H7","nominal_mm":25,"measured_mm":25})") ==
         Complaints{"/nominal_mm field.conflict"});
+  for (const std::string place : {"upper_um", "lower_um"}) {
+    CHECK(complaints(R"({"designation":"25 H7",")" + place + R"(":1,"measured_mm":25})") ==
+          Complaints{"/" + place + " field.conflict"});
+  }
   CHECK(
       complaints(R"({"nominal_mm":25,"tolerance_class":"H7","feature":"hole","measured_mm":25})") ==
       Complaints{"/tolerance_class field.conflict"});
@@ -112,6 +116,18 @@ TEST_CASE("limits are given once, in one of three ways") {
                                  deviations)) ==
           Complaints{fmt::format("{} limits.invalid", place)});
   }
+}
+
+TEST_CASE("limits are checked beside other bad fields, and not by a quantity that is none") {
+  CHECK(complaints(
+            R"({"measured_mm":null,"nominal_mm":25,"feature":"hole","upper_um":1,"lower_um":2})") ==
+        Complaints{"/measured_mm field.type", "/upper_um limits.invalid"});
+  CHECK(complaints(R"({"measured_mm":25,"nominal_mm":25,"feature":"hole","upper_um":"x"})") ==
+        Complaints{"/upper_um length.malformed"});
+  CHECK(
+      complaints(
+          R"({"measured_mm":-1,"nominal_mm":0,"quantity":"positon","upper_um":5,"lower_um":-5})") ==
+      Complaints{"/quantity field.invalid"});
 }
 
 TEST_CASE("what a spreadsheet would run as a formula is guarded in CSV, and read back as it was") {
