@@ -294,7 +294,8 @@ Result<std::string> pairing(const JsonValue& body) {
   read_body(body, "", errors, order);
   if (auto error = errors.take()) return *std::move(error);
   auto made = metrology::pair(order.holes, order.shafts, order.target);
-  if (!made) return at_member(order.holes.empty() ? "holes" : "shafts", made.error());
+  if (!made)
+    return at_member(order.holes.empty() ? order.holes_name : order.shafts_name, made.error());
   return body_json(Pairing{*std::move(made)});
 }
 

@@ -281,6 +281,13 @@ class Statistics(DaemonTest):
         few = self.compute("pairing", {"holes_mm": [25.01], "shafts_mm": [24.99, 25.001], "target_clearance_um": 8})
         self.assertEqual(few["pairs"], [{"hole": 0, "shaft": 1, "clearance_um": 9}])
 
+    def test_a_list_to_pair_is_refused_by_the_name_it_came_with(self):
+        for ending in ("", "_mm"):
+            for empty, other in (("holes", "shafts"), ("shafts", "holes")):
+                body = {empty + ending: [], other + ending: [25], "target_clearance_um": 8}
+                problem = self.assert_problem(self.daemon.post("/v1/statistics/pairing", body), 422, "request.invalid")
+                self.assertEqual([each["pointer"] for each in problem["errors"]], [f"/{empty}{ending}"])
+
     def test_what_is_refused(self):
         capability = {"values": [1, 2, 3], "lower": 0, "upper": 4}
         for name, body, code in [
