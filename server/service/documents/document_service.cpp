@@ -72,6 +72,7 @@ Result<void> check_free(const Stores& stores, DocumentKind kind, const std::stri
       {DocumentKind::Calibration, DocumentKind::Uncertainty, "uncertainty"},
       {DocumentKind::Plan, DocumentKind::GaugeInUse, "gauge"},
       {DocumentKind::Study, DocumentKind::GaugeInUse, "gauge"},
+      {DocumentKind::Connection, DocumentKind::GaugeInUse, "gauge"},
       {DocumentKind::Plan, DocumentKind::Catalogue, "catalogue"}};
   for (const Use& use : kUses) {
     if (use.of != kind) continue;
@@ -110,8 +111,9 @@ void add_users(std::vector<std::string>& users, const Stores& stores, DocumentKi
       return std::ranges::any_of(list.items, names_it);
     };
     const JsonValue& workpiece = body->member("workpiece");
-    if (!names_it(*body) && !has_one(body->member("characteristics")) &&
-        !has_one(workpiece.member("features")) && !has_one(workpiece.member("fixtures"))) {
+    if (!names_it(*body) && !names_it(body->member("set")) &&
+        !has_one(body->member("characteristics")) && !has_one(workpiece.member("features")) &&
+        !has_one(workpiece.member("fixtures"))) {
       continue;
     }
     const std::string user = kind == DocumentKind::Calibration

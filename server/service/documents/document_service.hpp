@@ -13,8 +13,8 @@ using store::DocumentKind;
 std::string calibration_name(std::string_view gauge, Timestamp from);
 std::string_view gauge_of_calibration(std::string_view name);
 
-/// Adds the documents of a kind, as `plan '4711'`, of which the body, a characteristic, or a
-/// feature or fixture of the workpiece names something. Used inside a job.
+/// Adds the documents of a kind, as `plan '4711'`, of which the body, a characteristic, a feature
+/// or fixture of the workpiece, or `set` of a folder names something. Used inside a job.
 void add_users(std::vector<std::string>& users, const Stores& stores, DocumentKind kind,
                const std::function<bool(const JsonValue&)>& names_it);
 /// The state does not allow the change that If-Match or If-None-Match asked for.

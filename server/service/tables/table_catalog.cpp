@@ -197,14 +197,14 @@ void TableCatalog::change(ColumnName column, std::optional<iso286::CustomColumn>
         auto audited = std::make_shared<const TableState>(audit(loaded));
         // Without a class of ISO 286 in its place.
         if (audited->tables != nullptr && !audited->tables->find_class(column.name)) {
-          const auto names_it = [&](const JsonValue& characteristic) {
-            const auto designation =
-                iso286::parse_designation(characteristic.text_of("designation"));
-            return characteristic.text_of("tolerance_class") == column.name ||
+          const auto names_it = [&](const JsonValue& value) {
+            const auto designation = iso286::parse_designation(value.text_of("designation"));
+            return value.text_of("tolerance_class") == column.name ||
                    (designation && designation->class_name == column.name);
           };
           std::vector<std::string> users;
-          add_users(users, stores, DocumentKind::Plan, names_it);
+          for (const DocumentKind by : {DocumentKind::Plan, DocumentKind::Connection})
+            add_users(users, stores, by, names_it);
           TRY(check_unused(fmt::format("the custom tolerance class {}", column.name), users));
         }
         // RFC 9110, 13.2.1: this is the last refusal.

@@ -3,8 +3,10 @@
 import base64
 import hashlib
 import json
+import shutil
 import sqlite3
 import sys
+import tempfile
 import unittest
 
 from support.daemon import ROOT, Daemon, DaemonTest
@@ -18,6 +20,11 @@ BUDGET = {"contributions": [{"name": "all", "standard_uncertainty": 0.8}]}
 PLAN = {"characteristics": [{"name": "bore", "designation": "25 H7", "gauge": "G-1", "catalogue": "causes"}]}
 SETUP = {"machine": {"tools": [{"number": 5, "radius_mm": 2}], "presets": [{"number": 1}], "active_preset": 1}}
 COLUMN = {"rows": [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": -3}]}
+FOLDERS = tempfile.mkdtemp(prefix="fitgauge-changes-")
+
+
+def tearDownModule():
+    shutil.rmtree(FOLDERS, ignore_errors=True)
 
 
 def tree(leaves):
@@ -29,6 +36,8 @@ def tree(leaves):
 
 
 class Changes(DaemonTest):
+    flags = ("--connection-folders", FOLDERS)
+
     def put(self, path, body, status=201):
         answer = self.daemon.request("PUT", path, body)
         self.assertEqual(answer.status, status, answer)
@@ -112,6 +121,18 @@ class Changes(DaemonTest):
             problem = self.assert_problem(self.daemon.request("DELETE", path), 409, "document.in_use")
             self.assertIn(by, problem["detail"])
         for path in ("/v1/plans/P-1", "/v1/studies/S-1", *reversed(paths)):
+            self.delete(path)
+
+    def test_what_a_watched_folder_sets_is_not_deleted(self):
+        self.put("/v1/gauges-in-use/G-5", {"calibration_due": "2027-03-31"})
+        self.put("/v1/tables/hole/classes/Own5", COLUMN)
+        for names in ({"gauge": "G-5", "designation": "25 Own5"}, {"gauge": "G-5", "tolerance_class": "Own5"}):
+            self.daemon.request("PUT", "/v1/connections/cmm", {"kind": "folder_in", "folder": FOLDERS, "set": names})
+            for path in ("/v1/gauges-in-use/G-5", "/v1/tables/hole/classes/Own5"):
+                problem = self.assert_problem(self.daemon.request("DELETE", path), 409, "document.in_use")
+                self.assertIn("in use by connection 'cmm'", problem["detail"])
+        self.delete("/v1/connections/cmm")
+        for path in ("/v1/gauges-in-use/G-5", "/v1/tables/hole/classes/Own5"):
             self.delete(path)
 
     def test_the_picture_of_a_plan_is_not_deleted(self):
