@@ -52,6 +52,8 @@ class TraceCsv {
  public:
   /// The rows that end in this piece. @errors StorageCorrupt when a line is no move.
   Result<std::string> rows(std::string_view piece);
+  /// The header line if there was no row: with the linear axes, which every machine has.
+  std::string end();
 
  private:
   /// A column: a member of a move, or one axis of a position.
@@ -63,6 +65,7 @@ class TraceCsv {
   };
 
   static std::vector<Column> columns_of(const JsonValue& move);
+  void append_header(std::string& out) const;
   Result<void> append_line(std::string& out, std::string_view line);
 
   std::string rest_;  ///< of a line that has not ended

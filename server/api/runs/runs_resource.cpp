@@ -76,7 +76,7 @@ class TraceStream final : public http::BodyStream {
 
   void next(http::ChunkSink sink) override {
     auto piece = trace_.next();
-    if (piece && piece->empty()) return sink.finish();
+    if (piece && piece->empty()) return sink.finish(csv_ ? csv_->end() : "");
     if (piece && csv_) piece = csv_->rows(*piece);
     if (!piece) return sink.fail();
     sink.put(*std::move(piece));

@@ -136,25 +136,38 @@ std::vector<TraceCsv::Column> TraceCsv::columns_of(const JsonValue& move) {
   return columns;
 }
 
+void TraceCsv::append_header(std::string& out) const {
+  for (const Column& column : columns_) {
+    if (&column != &columns_.front()) out += ',';
+    out += column.title();
+  }
+  out += "\r\n";
+}
+
 Result<void> TraceCsv::append_line(std::string& out, std::string_view line) {
-  const auto append_row = [&](const auto& append) {
-    for (const Column& column : columns_) {
-      if (&column != &columns_.front()) out += ',';
-      append(column);
-    }
-    out += "\r\n";
-  };
   const auto move = TRY(parse_stored_json(line, "trace of a run"));
   if (columns_.empty()) {
     columns_ = columns_of(move);
-    append_row([&](const Column& column) { out += column.title(); });
+    append_header(out);
   }
-  append_row([&](const Column& column) {
+  for (const Column& column : columns_) {
+    if (&column != &columns_.front()) out += ',';
     const JsonValue* value = move.find(column.member);
     if (value != nullptr && !column.axis.empty()) value = value->find(column.axis);
     if (value != nullptr) sheet::append_csv_cell(out, value->text);
-  });
+  }
+  out += "\r\n";
   return {};
+}
+
+std::string TraceCsv::end() {
+  std::string out;
+  if (!columns_.empty()) return out;
+  std::string move;
+  write_move(move, {}, {}, std::array{Axis::X, Axis::Y, Axis::Z});
+  columns_ = columns_of(parse_json(move).value());
+  append_header(out);
+  return out;
 }
 
 // Only the head also begins a line with a brace, and it ends in a bracket.

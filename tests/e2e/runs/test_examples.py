@@ -170,6 +170,12 @@ class Examples(ControlTest):
         self.assertEqual(self.measure_axes("worn")["screen"][-1],
                          "KINEMATICS: RESTORED: THE AXES SCATTER")
 
+    def test_trace_without_moves_as_csv_has_its_header(self):
+        self.daemon.request("PUT", "/v1/files/still.h", "BEGIN PGM still MM\nEND PGM still MM\n")
+        run = self.daemon.post("/v1/runs", {"program": "still.h"}).json
+        answer = self.daemon.get(f"/v1/runs/{run['id']}/trace", Accept="text/csv")
+        self.assertRegex(answer.text, r"\Akind,block,line,program,start_x_mm,[^\r\n]+\r\n\Z")
+
     def test_trace_as_csv_has_a_row_for_every_move(self):
         run = self.gauge("hole-good")
         path = f"/v1/runs/{run['id']}/trace"

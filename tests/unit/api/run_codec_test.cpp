@@ -108,6 +108,16 @@ TEST_CASE("a cell of a trace is quoted as in every CSV") {
   CHECK(TraceCsv().rows(trace).value().find("\"a;b\",\"c\n\"\"d\"\"\"") != std::string::npos);
 }
 
+TEST_CASE("a trace has the header of its CSV once, also without moves") {
+  TraceCsv still;
+  CHECK(still.rows(trace_of({}, kPlace)).value().empty());
+  const std::string header = still.end();
+  CHECK(header.starts_with("kind,block,line,program,start_x_mm,"));
+  TraceCsv moved;
+  CHECK(moved.rows(trace_of({machine::TracedMove{}}, kPlace)).value().starts_with(header));
+  CHECK(moved.end().empty());
+}
+
 TEST_CASE("events of a run that is over carry ids, and a reader goes on behind the one it had") {
   const std::string report = R"({"screen":["one","two"]})";
   const auto events = [&](std::optional<std::string_view> last) {
