@@ -14,18 +14,24 @@ struct NoteText {
   std::size_t longest = 200;  ///< bytes of a cause, a measure, a name
 
   std::string schema(Side) const { return schema::text(longest); }
-  void check(FieldErrors& errors, const std::string& at, std::string_view text) const {
+  /// @param what the text, as the error names it
+  void check(FieldErrors& errors, const std::string& at, std::string_view what,
+             std::string_view text) const {
+    const auto refuse = [&](ErrorCode code, std::string_view condition) {
+      errors.add(code, at, fmt::format("{} must {}", what, condition));
+    };
     if (text.size() > longest) {
-      errors.add(ErrorCode::FieldTooLong, at, fmt::format("at most {} bytes", longest));
-    } else if (text.find_first_not_of(" \t\r\n") == std::string_view::npos ||
-               text.find('\0') != std::string_view::npos) {
-      errors.add(ErrorCode::FieldInvalid, at, "text must not be blank");
+      refuse(ErrorCode::FieldTooLong, fmt::format("have at most {} bytes", longest));
+    } else if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+      refuse(ErrorCode::FieldInvalid, "not be blank");
+    } else if (text.find('\0') != std::string_view::npos) {
+      refuse(ErrorCode::FieldInvalid, "not contain a NUL character");
     }
   }
   bool read(FieldReader& fields, std::string_view name, std::string& to) const {
     auto given = fields.text(name);
     if (!given) return false;
-    check(fields.errors(), fields.at(name), *given);
+    check(fields.errors(), fields.at(name), name, *given);
     to = *std::move(given);
     return true;
   }

@@ -1,6 +1,7 @@
 #include "api/measurements/measurements.hpp"
 
 #include "record/measurement_row_reader.hpp"
+#include "record/note.hpp"
 #include "service/log/log_service.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 #include "service/tables/table_catalog.hpp"
@@ -152,16 +153,8 @@ std::optional<std::string_view> read_reason(const JsonValue& body, FieldErrors& 
     return wrong(ErrorCode::FieldType,
                  fmt::format("reason must be a string; got {}", name_of(reason->kind)));
   }
-  const std::string_view text = reason->text;
-  if (text.size() > kLongestReason) {
-    return wrong(ErrorCode::FieldTooLong,
-                 fmt::format("reason must have at most {} bytes", kLongestReason));
-  }
-  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos ||
-      text.find('\0') != std::string_view::npos) {
-    return wrong(ErrorCode::FieldInvalid, "reason of the correction is required");
-  }
-  return text;
+  NoteText{kLongestReason}.check(errors, "/reason", "reason", reason->text);
+  return reason->text;
 }
 
 Result<MeasurementBatch> decode(const std::shared_ptr<const Sources>& sources,

@@ -78,7 +78,7 @@ struct Entries {
                    fmt::format("an entry must be a string; got {}", name_of(item.kind)));
         continue;
       }
-      NoteText{}.check(errors, at, item.text);
+      NoteText{}.check(errors, at, "an entry", item.text);
       if (!texts.insert(item.text).second)
         errors.add(ErrorCode::FieldConflict, at, "this entry is repeated");
     }

@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 14> kMeasurementFields = {
 void check_length(FieldReader& reader, std::string_view name,
                   const std::optional<std::string>& text, std::size_t longest) {
   if (text && text->size() > longest)
-    reader.report(ErrorCode::FieldTooLong, name, "at most {} bytes", longest);
+    reader.report(ErrorCode::FieldTooLong, name, "{} must have at most {} bytes", name, longest);
 }
 
 void read_text(FieldReader& reader, std::string_view name, std::size_t longest) {
@@ -37,6 +37,8 @@ void read_own_fields(FieldReader& reader, std::set<std::string>& names) {
   check_length(reader, "name", name, kLongestText);
   if (name && name->empty())
     reader.report(ErrorCode::FieldInvalid, "name", "name must not be empty");
+  if (name && name->find('\0') != std::string::npos)
+    reader.report(ErrorCode::FieldInvalid, "name", "name must not contain a NUL character");
   if (name && !names.insert(*name).second) {
     reader.report(ErrorCode::FieldConflict, "name",
                   "another characteristic of the plan has this name");

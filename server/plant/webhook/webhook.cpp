@@ -37,7 +37,7 @@ struct WebhookOptions {
 Result<std::string> read_url(std::string_view text) {
   std::string url(text);
   const auto fault = url.size() > kLongestUrl
-                         ? std::optional(fmt::format("at most {} bytes", kLongestUrl))
+                         ? std::optional(fmt::format("url must have at most {} bytes", kLongestUrl))
                          : http_client::fault_of_url(url);
   if (fault) return invalid_field(*fault);
   return url;

@@ -185,6 +185,9 @@ class Corrections(DaemonTest):
         self.assert_field(self.correct(old, reason="x"), "/measured_mm", "field.missing")
         self.assert_field(self.correct(old, measured_mm=25.01, reason=" "), "/reason",
                           "field.invalid")
+        unclear = self.correct(old, measured_mm=25.01, reason="a\0b")
+        self.assert_field(unclear, "/reason", "field.invalid")
+        self.assertEqual(unclear.json["detail"], "reason must not contain a NUL character")
         self.assert_field(self.correct(old, measured_mm=25.01, reason=7), "/reason", "field.type")
         self.assert_field(self.correct(old, measured_mm=25.01, reason="x" * 2001), "/reason",
                           "field.too_long")

@@ -55,6 +55,11 @@ class Notes(DaemonTest):
             answer = self.note(record, note)
             self.assert_problem(answer, 422, "request.invalid")
             self.assertIn((pointer, code), [(each["pointer"], each["code"]) for each in answer.json["errors"]])
+        for field in ("cause", "measure", "text", "operator"):
+            for text, detail in ((" ", "must not be blank"), ("a\0b", "must not contain a NUL character"),
+                                 ("x" * 2001, f"must have at most {2000 if field == 'text' else 200} bytes")):
+                refused = self.note(record, {**WORN, field: text}).json
+                self.assertEqual((refused["detail"], refused["errors"][0]["pointer"]), (f"{field} {detail}", f"/{field}"))
         self.assertEqual(self.notes(record), [])
         for method, body in (("POST", WORN), ("GET", None)):
             for unknown in ("m999999", "m1-0123456789abcdef", "x"):

@@ -118,6 +118,7 @@ class Plans(DaemonTest):
             ([{**BORE, "measured_mm": 25}], "/characteristics/0/measured_mm", "field.unknown"),
             ([{**BORE, "subgroup_size": 0}], "/characteristics/0/subgroup_size", "field.invalid"),
             ([{**BORE, "name": "x" * 201}], "/characteristics/0/name", "field.too_long"),
+            ([{**BORE, "name": "a\0b"}], "/characteristics/0/name", "field.invalid"),
             ([{**BORE, "gauge": 7}], "/characteristics/0/gauge", "field.type"),
             ([7], "/characteristics/0", "field.type"),
             ([], "/characteristics", "field.invalid"),
