@@ -16,6 +16,15 @@ std::string select_keys(std::string_view rest) {
       rest);
 }
 
+constexpr std::size_t kLongestName = 200;
+
+/// Whether records can have the name as their caller, and lists of keys one line for it.
+bool is_name(std::string_view name) {
+  return !name.empty() && name.size() <= kLongestName && is_utf8(name) &&
+         std::ranges::none_of(
+             name, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; });
+}
+
 }  // namespace
 
 using sql::Blob;
@@ -156,8 +165,13 @@ struct StatementsOf<KeysStore> {
 
 Result<ApiKey> KeysStore::create(std::string_view name, Role role, std::string_view token,
                                  std::int64_t now_ns, std::optional<std::int64_t> expires_at_ns) {
-  if (name.empty())
-    return Error{ErrorCode::FieldInvalid, "name of the key must not be empty", "name"};
+  if (!is_name(name)) {
+    return Error{
+        ErrorCode::FieldInvalid,
+        fmt::format("name of the key must have 1 to {} bytes of UTF-8 without control characters",
+                    kLongestName),
+        "name"};
+  }
   if (token.size() < kShortestToken) {
     return Error{ErrorCode::FieldInvalid,
                  fmt::format("key must have at least {} characters", kShortestToken), "token"};

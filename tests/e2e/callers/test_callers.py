@@ -3,6 +3,7 @@
 import contextlib
 import datetime
 import http.client
+import os
 import socket
 import time
 
@@ -205,6 +206,12 @@ class Keys(Callers):
         wait_for(lambda: use() == 401)
         self.assertIn("revoked", self.daemon.command("key", "list").stdout)
         self.assertEqual(self.daemon.command("key", "revoke", "--name", "press-3").returncode, 1)
+
+    def test_a_name_that_no_record_can_have(self):
+        for name in ("", "x" * 201, os.fsdecode(b"M\xfcller"), "a\nb", "a\tb"):
+            made = self.daemon.command("key", "create", "--name", name, "--role", "viewer")
+            self.assertEqual(made.returncode, 1, name)
+            self.assertIn("name of the key must have 1 to 200 bytes of UTF-8 without control characters", made.stderr)
 
     def test_a_role_that_is_none(self):
         made = self.daemon.command("key", "create", "--name", "x", "--role", "king")
