@@ -183,7 +183,7 @@ void append_event_line(std::string& out, LogLevel level, std::string_view event,
   begin(line, level);
   append_json_string(line.flush_to(out), event);
   out += ",\"detail\":";
-  append_json_string(out, detail);
+  append_json_string(out, as_utf8(detail));
   out += "}\n";
 }
 

@@ -172,7 +172,7 @@ class Worker {
       ++state.attempts;
       if (why) {
         ++state.failures;
-        state.last_error = *why;
+        state.last_error = as_utf8(*why);
       }
       if (!why || delivered) state.last_success_at = state.last_attempt_at;
     });

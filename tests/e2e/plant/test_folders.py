@@ -109,6 +109,18 @@ class Taking(Folders):
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()), sorted(
             [".hidden.csv", "readme.md", "a.csv.part", "b.ndjson", "folder.csv", "link.csv", "done"]))
 
+    def test_a_name_that_is_not_utf_8_is_told_in_utf_8(self):
+        daemon = self.daemon().start()
+        self.connect(daemon)
+        name = os.fsdecode("Müller.csv".encode("cp1252"))
+        self.drop(name, "designation;measured_mm\n25 H7;oops\n")
+        self.wait(lambda: name in self.files("failed"))
+        self.wait(lambda: "cmm: Müller.csv: 'oops' is not a decimal number" in daemon.log)
+        (self.folder / "failed").rename(self.root / "before")
+        (self.folder / "failed").touch()  # where a folder must be
+        self.drop(name, "designation;measured_mm\n25 H7;oops\n")
+        self.wait(lambda: "Müller.csv cannot be moved" in (daemon.get("/v1/connections/cmm").json["last_error"] or ""))
+
     def test_a_wrong_file_is_told_with_line_and_remedy(self):
         daemon = self.daemon().start()
         self.connect(daemon)
