@@ -17,16 +17,29 @@ constexpr double kNanometresOfUm = 1000;
 constexpr double kMillionths = 1e6;
 constexpr int kFirstOfServer = 500;
 
-/// The newest values of one characteristic, from the newest on.
+/// The newest values of one characteristic, and the parts in the order of making.
 struct CorrectedParts {
+  struct Value {
+    std::int64_t row = 0;
+    std::int64_t place = 0;  ///< row of the first value in its chain of corrections
+    Length decisive{};
+    double offset = 0;
+    std::optional<std::string> tool{};
+    bool is_fit = true;  ///< its gauge is
+    bool is_left_out = false;
+  };
+
   std::shared_ptr<const GaugeBook> gauges{};
+  app::MeasurementQuery filters{};  ///< of the order
   std::optional<Length> target{};
+  std::vector<Value> values{};  ///< all that were added
   std::vector<metrology::MadePart> parts{};
-  std::string newest{};  ///< its id; empty before the first value
+  double offset = 0;         ///< corrections that were made after the last part
+  bool begins_tool = false;  ///< the tool was changed after the last part
+  std::string newest{};      ///< id of the newest value that counts; empty: there is none
   std::optional<Length> lower{};
   std::optional<Length> upper{};
-  std::optional<std::string> tool{};  ///< of the value after
-  bool is_unfit = false;              ///< the gauge of the newest value is
+  bool is_unfit = false;  ///< the gauge of the last value is
   std::optional<Error> error{};
 
   /// Tests the gauge as it was stored and as it is now: it may be blocked after it has measured.
@@ -38,14 +51,23 @@ struct CorrectedParts {
     return period == nullptr || (!period->is_blocked && !period->is_overdue(value.measured_at));
   }
 
-  void add(const app::Measurement& value) {
+  /// Returns the query of all values. The filters that leave out single values are applied here,
+  /// because the correction before such a value was made.
+  app::MeasurementQuery query() const {
+    app::MeasurementQuery query = filters;
+    if (filters.set_aside == false) {
+      query.set_aside.reset();
+      query.shows_notes = true;
+    }
+    if (filters.confirmed == false) query.confirmed.reset();
+    return query;
+  }
+
+  void take_limits(const app::Measurement& value) {
     const auto low = value.has_lower_limit() ? std::optional(value.lower_limit()) : std::nullopt;
     const auto high = value.has_upper_limit() ? std::optional(value.upper_limit()) : std::nullopt;
-    const bool is_first = newest.empty();
-    const bool is_fit = is_gauge_fit(value);
-    if (is_first) {
+    if (newest.empty()) {
       newest = app::measurement_id_text(value.id, value.origin);
-      is_unfit = !is_fit;
       lower = low;
       upper = high;
       if (!target && low && high) target = Length::nanometres((low->count() + high->count()) / 2);
@@ -53,17 +75,45 @@ struct CorrectedParts {
       error = Error{ErrorCode::LimitsMixed,
                     "the values have different limits: select those of one characteristic"};
     }
+  }
+
+  /// Adds values from the newest on.
+  void add(const app::Measurement& value) {
+    const bool is_left_out = (filters.set_aside == false && app::sets_aside(value.notes)) ||
+                             (filters.confirmed == false && value.confirmed);
+    if (!is_left_out) take_limits(value);
+    values.push_back({.row = value.row,
+                      .place = value.first_row,
+                      .decisive = value.decisive(),
+                      .offset = static_cast<double>(value.offset.value_or(0)) / kNanometresOfUm,
+                      .tool = value.tool ? std::optional<std::string>(*value.tool) : std::nullopt,
+                      .is_fit = is_gauge_fit(value),
+                      .is_left_out = is_left_out});
+  }
+
+  /// Makes the parts: a correction has the place of the value that it replaces.
+  /// @param has_older whether older values match, which were not added
+  void arrange(bool has_older) {
     if (!target) return;
-    if (value.tool && tool && *value.tool != *tool && !parts.empty())
-      parts.back().has_new_tool = true;
-    if (value.tool) tool.emplace(*value.tool);
-    const double offset = static_cast<double>(value.offset.value_or(0)) / kNanometresOfUm;
-    if (is_fit) {
+    if (has_older) {
+      const std::int64_t oldest = values.back().row;
+      std::erase_if(values, [oldest](const Value& value) { return value.place < oldest; });
+    }
+    std::ranges::sort(values, {},
+                      [](const Value& value) { return std::pair(value.place, value.row); });
+    std::optional<std::string> tool;
+    for (const Value& value : values) {
+      if (value.tool) {
+        begins_tool = begins_tool || (tool && *tool != *value.tool);
+        tool = value.tool;
+      }
+      offset += value.offset;
+      if (!value.is_left_out) is_unfit = !value.is_fit;
+      if (value.is_left_out || !value.is_fit) continue;
       parts.push_back(
-          {.deviation = static_cast<double>((value.decisive() - *target).count()) / kNanometresOfUm,
-           .offset = offset});
-    } else if (!parts.empty()) {
-      parts.back().offset += offset;  // the value is of no use, its correction was made
+          {.deviation = static_cast<double>((value.decisive - *target).count()) / kNanometresOfUm,
+           .offset = std::exchange(offset, 0.0),
+           .has_new_tool = std::exchange(begins_tool, false)});
     }
   }
 
@@ -136,12 +186,14 @@ Result<Proposal> proposal_of(CorrectedParts& read, double cost) {
   const double half = read.target ? read.half_tolerance() : 0;
   if (read.target && !(half > 0))
     return Error{ErrorCode::QueryInvalid, "target_mm must be between the limits", "target_mm"};
-  std::ranges::reverse(read.parts);
-  Proposal proposal{.found = metrology::propose_offset(read.parts, half, cost),
+  Proposal proposal{.found = metrology::propose_offset(read.parts, half, cost, read.offset),
                     .values = read.parts.size()};
-  if (read.is_unfit)
+  if (read.is_unfit) {
     proposal.found = {.reason =
                           "the gauge of the last value is overdue for calibration or blocked"};
+  } else if (read.begins_tool) {
+    proposal.found = {.reason = "the first value of the tool is left out: measure the next part"};
+  }
   return proposal;
 }
 
@@ -150,10 +202,11 @@ template <class Done>
 void find_offset(const OffsetOrder& order, app::MeasurementService& measurements,
                  const GaugesInUse& gauges, Done done) {
   const auto read = std::make_shared<CorrectedParts>(
-      CorrectedParts{.gauges = gauges.book(), .target = order.target});
+      CorrectedParts{.gauges = gauges.book(), .filters = order.query, .target = order.target});
   measurements.list(
-      order.query, 0, kMostParts, [read](const app::Measurement& value) { read->add(value); },
+      read->query(), 0, kMostParts, [read](const app::Measurement& value) { read->add(value); },
       [read, order, done = std::move(done)](const Result<app::ListPage>& page) {
+        if (page) read->arrange(page->next.has_value());
         auto found = page ? proposal_of(*read, order.cost) : Result<Proposal>(page.error());
         if (found) found->of = selected_by(order.query);
         done(std::move(found), read->newest);

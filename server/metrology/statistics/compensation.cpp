@@ -151,7 +151,8 @@ std::int64_t parts_until(double level, double variance, double wear, double wand
 
 }  // namespace
 
-Compensation propose_offset(std::span<const MadePart> parts, double half_tolerance, double cost) {
+Compensation propose_offset(std::span<const MadePart> parts, double half_tolerance, double cost,
+                            double made) {
   Compensation found;
   found.reason = "fewer than six values";
   if (parts.size() < kFewestForCompensation) return found;
@@ -164,7 +165,7 @@ Compensation propose_offset(std::span<const MadePart> parts, double half_toleran
   const double variance = filtered.scatter;
   const double wandering = ratio * variance;
   State& state = filtered.state;
-  state.predict(ratio, 0);
+  state.predict(ratio, made);
   found.offset = -state.level;
   found.offset_uncertainty = std::sqrt(state.level_variance * variance);
   found.wear = state.wear;

@@ -38,6 +38,8 @@ inline constexpr std::size_t kFewestForCompensation = 6;
 /// 1997).
 /// @param half_tolerance in µm, > 0
 /// @param cost of a correction, in parts, > 0
-Compensation propose_offset(std::span<const MadePart> parts, double half_tolerance, double cost);
+/// @param made correction that was made after the last part, in µm
+Compensation propose_offset(std::span<const MadePart> parts, double half_tolerance, double cost,
+                            double made = 0);
 
 }  // namespace fitgauge::metrology

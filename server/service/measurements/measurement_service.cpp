@@ -19,6 +19,17 @@ std::optional<Length> limit_of(std::int64_t nanometres) {
   return -kLongest < limit && limit < kLongest ? std::optional(limit) : std::nullopt;
 }
 
+/// Returns the row of the first value in a chain of corrections.
+std::int64_t first_row_of(const Stores& stores, const MeasurementRow& row) {
+  std::int64_t first = row.id;
+  for (auto of = row.correction_of; of;) {
+    first = *std::exchange(of, std::nullopt);
+    stores.measurements.find(
+        first, [&of](const MeasurementRow& corrected) { of = corrected.correction_of; });
+  }
+  return first;
+}
+
 bool is_in_conflict(const Stores& stores, const MeasurementRow& row) {
   return row.correction_of && stores.measurements.has_rivals(*row.correction_of);
 }
@@ -87,6 +98,7 @@ void MeasurementService::list(const MeasurementQuery& query, std::int64_t after,
             filter, after, limit,
             [&](const MeasurementRow& row) {
               Measurement measurement = from_store(row, names);
+              measurement.first_row = first_row_of(stores, row);
               measurement.conflict = is_in_conflict(stores, row);
               std::vector<Note> notes;
               if (shows_notes) {

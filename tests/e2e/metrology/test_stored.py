@@ -288,6 +288,48 @@ class Stored(DaemonTest):
         self.assertEqual((found["state"], found["values"]), ("wait", 32), found)
         self.assertLess(abs(found["offset_um"]), 1)
 
+    def leave_out(self, characteristic, **others):
+        """Stores a value that does not belong to the process. @returns the filter that leaves it out"""
+        self.store(characteristic, ["74.049"], **others)
+        if others.get("confirmed"):
+            return f"characteristic={characteristic}&confirmed=false"
+        burr = self.daemon.get(f"/v1/measurements?characteristic={characteristic}&last=1").json["measurements"][0]["id"]
+        note = self.daemon.post(f"/v1/measurements/{burr}/notes", {"cause": "burr", "measure": "set aside"})
+        self.assertEqual(note.status, 201, note)
+        return f"characteristic={characteristic}&set_aside=false"
+
+    def test_the_offset_before_a_value_that_a_filter_leaves_out_was_made(self):
+        for name, others in (("burr", {}), ("far", {"confirmed": True})):
+            self.store(name, self.about(20), tool="T1")
+            self.assertEqual(self.find("compensation", f"characteristic={name}")["state"], "propose")
+            query = self.leave_out(name, offset_um="-20", tool="T1", **others)
+            for used in (30, 32):
+                found = self.find("compensation", query)
+                self.assertEqual((found["state"], found["values"]), ("wait", used), found)
+                self.assertLess(abs(found["offset_um"]), 1, found)
+                self.store(name, self.about(0, 2), tool="T1")
+            # The level of a new tool is unknown until a value of the tool counts.
+            self.leave_out(name, tool="T2", **others)
+            found = self.find("compensation", query)
+            self.assertEqual((found["state"], found["offset_um"]), ("wait", None), found)
+
+    def test_a_corrected_value_keeps_its_place_among_the_parts(self):
+        self.store("mistyped", self.about(20))
+        self.store("mistyped", self.about(0, 1), offset_um="-20")
+        self.store("mistyped", self.about(0, 8))
+        rows = self.daemon.get("/v1/measurements?characteristic=mistyped").json["measurements"]
+        before = self.find("compensation", "characteristic=mistyped")
+        self.assertEqual((before["state"], before["values"]), ("wait", 39), before)
+        for row, measured in ((rows[3], "74.0199"), (rows[30], "74.0008"), (rows[30], "74.0007")):
+            newest = self.daemon.get(f"/v1/measurements/{row['id']}").json.get("corrected_by", row["id"])
+            corrected = self.daemon.post(f"/v1/measurements/{newest}/corrections",
+                                         {"measured_mm": measured, "reason": "mistyped"})
+            self.assertEqual(corrected.status, 201, corrected)
+            found = self.find("compensation", "characteristic=mistyped")
+            self.assertEqual((found["state"], found["reason"], found["values"]),
+                             ("wait", before["reason"], 39), found)
+            self.assertAlmostEqual(found["offset_um"], before["offset_um"], delta=0.2)
+
     def follow(self, query):
         connection = self.daemon.connect()
         self.addCleanup(connection.close)

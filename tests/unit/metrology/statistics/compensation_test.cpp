@@ -132,6 +132,7 @@ TEST_CASE("a correction that was made is not proposed again") {
   for (MadePart part : about(0, 5)) parts.push_back(part);
   parts[40].offset = -5;
   CHECK(found(parts).state == CompensationState::Wait);
+  CHECK(propose_offset(about(5, 40), 10.5, 0.1, -5).state == CompensationState::Wait);
   // Not recorded, it is detected: the second value shows that the level has moved.
   parts[40].offset = 0;
   CHECK(found(parts).state == CompensationState::Wait);
