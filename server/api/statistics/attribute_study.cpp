@@ -13,6 +13,8 @@ struct RatingsOrder {
   std::optional<std::string> good{};
   metrology::Ratings ratings{};
   std::map<std::size_t, std::size_t> references{};
+  StudyLabels trials{};
+  std::vector<std::size_t> trial{};  ///< of each rating, if all have one
   std::set<std::tuple<std::size_t, std::size_t, std::string>> seen{};
 };
 void row_members(auto& v, RatingsOrder& study) {
@@ -28,6 +30,7 @@ void row_members(auto& v, RatingsOrder& study) {
     ratings.part.push_back(study.parts.number(*part));
     ratings.operators.push_back(study.operators.number(*by));
     ratings.category.push_back(study.categories.number(*value));
+    if (trial) study.trial.push_back(study.trials.number(*trial));
     if (trial &&
         !study.seen.emplace(ratings.part.back(), ratings.operators.back(), *trial).second) {
       row.report(ErrorCode::FieldConflict, "trial",
@@ -46,7 +49,8 @@ void members(auto& v, RatingsOrder& study) {
   v.member("method", method, Word{"attribute"});
   v.optional("good", study.good, StudyLabel{},
              "The category of accepted parts, for misses and alarms");
-  v.member("measurements", study, StudyRows<RatingsOrder>{}, "The trials in their order");
+  v.member("measurements", study, StudyRows<RatingsOrder>{},
+           "Ratings, in the order of their trials if these have no name");
   v.check([&study](FieldReader& fields) {
     const std::size_t known = study.references.size();
     if (known > 0 && known < study.parts.size()) {
@@ -54,6 +58,10 @@ void members(auto& v, RatingsOrder& study) {
                     "give the reference of every part, or of none");
     } else if (study.good && known == 0) {
       fields.report(ErrorCode::FieldConflict, "good", "good needs parts with a reference");
+    } else if (study.good && !study.categories.has(*study.good)) {
+      fields.report(ErrorCode::FieldInvalid, "good",
+                    "good must be a value or a reference of the measurements; got '{}'",
+                    first_characters(*study.good, 40));
     }
   });
 }
@@ -89,9 +97,28 @@ void members(auto& v, const metrology::AttributeStudy& study) {
   v.optional("effectiveness", study.right, "Parts that all rate right in all trials");
 }
 
+namespace {
+
+/// Puts ratings that name their trials into the order of the trials, which are compared.
+void sort_by_trial(metrology::Ratings& ratings, const std::vector<std::size_t>& trial) {
+  std::vector<std::size_t> order(ratings.part.size());
+  if (trial.size() != order.size()) return;
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return trial[i]; });
+  const metrology::Ratings given = ratings;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    ratings.part[i] = given.part[order[i]];
+    ratings.operators[i] = given.operators[order[i]];
+    ratings.category[i] = given.category[order[i]];
+  }
+}
+
+}  // namespace
+
 Result<std::string> attribute_study(const JsonValue& body) {
   auto order = TRY(read_whole<RatingsOrder>(body));
   metrology::Ratings& ratings = order.ratings;
+  sort_by_trial(ratings, order.trial);
   for (const auto& [part, category] : order.references) ratings.reference.push_back(category);
   if (order.good) ratings.good = order.categories.number(*order.good);
   ratings.parts = order.parts.size();

@@ -12,6 +12,7 @@ class StudyLabels {
     if (is_new) names_.push_back(label);
     return found->second;
   }
+  bool has(const std::string& label) const { return numbers_.contains(label); }
   std::size_t size() const { return names_.size(); }
   const std::vector<std::string>& names() const { return names_; }
 
@@ -29,6 +30,9 @@ struct StudyLabel {
     const bool fits = value->is(JsonValue::Kind::Number) || value->is(JsonValue::Kind::String);
     if (fits) {
       to = value->text;
+      const bool is_fraction = to.find_first_of(".eE") != std::string::npos;
+      if (value->is(JsonValue::Kind::Number) && is_fraction)
+        to = fmt::format("{}", std::strtod(value->text.c_str(), nullptr));  // 1.0 is 1
     } else {
       fields.report(ErrorCode::FieldType, name, "{} must be a string or a number; got {}", name,
                     name_of(value->kind));

@@ -170,12 +170,17 @@ class Statistics(DaemonTest):
         self.assertEqual([study["alike"]["count"], study["effectiveness"]["count"]], [3, 3])
         # The upper end of 0 of n: 1 - 0.025 ^ (1 / n).
         self.assertAlmostEqual(b["false_alarms"]["upper_percent"], 100 * (1 - 0.025 ** 0.25), places=10)
+        # Trials are compared by their names, and numbers by their value.
+        mixed = [{**row, "value": float(row["value"])} for row in rows if row["operator"] == "A"] + [
+            row for row in reversed(rows) if row["operator"] == "B"]
+        self.assertEqual(self.compute("grr", {"method": "attribute", "good": 1, "measurements": mixed}), study)
         bare = [{name: of for name, of in row.items() if name != "reference"} for row in rows]
         blind = self.compute("grr", {"method": "attribute", "measurements": bare})
         self.assertIsNone(blind["operators"][0]["kappa_reference"])
         self.assertFalse({"effectiveness", "misses", "false_alarms"} & set(blind["operators"][0]))
         for body, pointer, code in (
                 ({"good": 1, "measurements": bare}, "/good", "field.conflict"),
+                ({"good": "OK", "measurements": rows}, "/good", "field.invalid"),
                 ({"measurements": rows[:1] + bare[1:]}, "/measurements", "field.missing"),
                 ({"measurements": rows + rows[:1]}, f"/measurements/{len(rows)}/trial", "field.conflict"),
                 ({"measurements": [*rows, {**rows[0], "trial": 2, "reference": 0}]},
