@@ -18,6 +18,9 @@ describe('sizes as people write them', () => {
     ['40 ±0.1', 'distance', { nominal_mm: 40, upper_um: 100, lower_um: -100, quantity: 'distance' }, '40 ±0.1'],
     ['12 ≥ 11.9', 'hole', { nominal_mm: 12, lower_um: -100, feature: 'hole' }, '12 ≥ 11.9'],
     ['<= 0.05', 'deviation', { nominal_mm: 0, upper_um: 50, quantity: 'deviation' }, '0 ≤ 0.05'],
+    ['-50 ±0.1 mm', 'position', { nominal_mm: -50, upper_um: 100, lower_um: -100, quantity: 'position' }, '−50 ±0.1'],
+    ['−50 ≤ −49.9', 'position', { nominal_mm: -50, upper_um: 100, quantity: 'position' }, '−50 ≤ −49.9'],
+    ['12 ≥ −0.1', 'distance', { nominal_mm: 12, lower_um: -12100, quantity: 'distance' }, '12 ≥ −0.1'],
     ['25 -0.02/-0.041', 'shaft', { nominal_mm: 25, upper_um: -20, lower_um: -41, feature: 'shaft' }, '25 −0.02/−0.041'],
     ['8 +0.00000001/0', 'hole', { nominal_mm: 8, upper_um: 0.00001, lower_um: 0, feature: 'hole' }], // nothing is rounded on the way
     ['gibberish', '', { designation: 'gibberish' }],
