@@ -72,6 +72,7 @@ Result<void> QifRows::read_tolerance(const Definitions::Item& item, std::uint32_
   fill(aqdef::kName, definition->name);
   const auto target = TRY(length("TargetValue", nominal->target, line));
   fields_[aqdef::kNominal] = format_mm(target);
+  fill(aqdef::kQuantity, definition->quantity);
   const Length from = definition->is_limit ? Length() : target;
   const auto upper = TRY(limit(definition->upper, from, "MaxValue", line));
   const auto lower = TRY(limit(definition->lower, from, "MinValue", line));
@@ -87,7 +88,6 @@ Result<void> QifRows::read_tolerance(const Definitions::Item& item, std::uint32_
     }
     return {};
   }
-  fill(aqdef::kQuantity, definition->quantity);
   if (upper) fields_[aqdef::kUpper] = format_um(*upper - target);
   if (lower) fields_[aqdef::kLower] = format_um(*lower - target);
   fill(aqdef::kFeature, definition->feature);
@@ -148,11 +148,10 @@ Result<bool> QifRows::read_row(const Element& element, std::uint32_t line) {
   for (const auto& [name, text] : item->attributes) set_field(fields_, name, text);
   for (const auto& [name, text] : element.named_attributes()) set_field(fields_, name, text);
   TRY(read_tolerance(*item, line));
-  if (fields_[aqdef::kClass].empty()) {
-    std::string_view kind = element.name();
-    kind.remove_suffix(kEnding.size());
-    fill(aqdef::kQuantity, std::string(quantity_of(kind, !fields_[aqdef::kFeature].empty())));
-  }
+  std::string_view kind = element.name();
+  kind.remove_suffix(kEnding.size());
+  const bool has_side = !fields_[aqdef::kClass].empty() || !fields_[aqdef::kFeature].empty();
+  fill(aqdef::kQuantity, std::string(quantity_of(kind, has_side)));
   const auto quantity = gauging::quantity_from_word(fields_[aqdef::kQuantity]);
   if (!quantity || gauging::has_feature(*quantity)) {  // otherwise the modifiers mean nothing
     const auto* const nominal = definitions_.nominal(item->nominal);

@@ -138,6 +138,7 @@ class Qif(Folders):
                     {"designation": "25 g6", "measured_mm": "24.99", "rule": "guard_band", "uncertainty_um": "0.8", "coverage_factor": "1.5"},
                     {"designation": "25 H7(E)", "measured_mm": "25.01", "size_operator": "GG", "go_gauge": "fails"},
                     {"nominal_mm": 8, "feature": "hole", "upper_um": 5, "lower_um": 0, "measured_mm": "8.001", "size_operator": "SD"},
+                    {"designation": "8 P9", "quantity": "width", "measured_mm": "7.96"},
                     {"designation": "25 H7", "measured_mm": "25.03", "characteristic": "Bore"}, {"designation": "25 H7", "measured_mm": "24.99"},
                     {"designation": "25 H7", "measured_mm": "25.01", "rule": "conformance", "uncertainty_um": 1, "probability": "0.9",
                      "temperature_c": 23, "part_material": "steel", "temperature_uncertainty_c": 2, "scale_temperature_c": "21.5", "scale_expansion_um_per_m_k": 8}):
@@ -156,7 +157,7 @@ class Qif(Folders):
         for each in root.iter():
             if each.get("n"):
                 self.assertEqual(int(each.get("n")), len(each), each.tag)
-        measured = list(root.iter(T + "DiameterCharacteristicMeasurement"))
+        measured = [each for each in root.iter() if each.tag.endswith("CharacteristicMeasurement")]
         by_id = {each.get("id"): each for each in root.iter() if each.get("id")}
         self.assertEqual(len(measured), len(stored))
         for each, record in zip(measured, stored):
