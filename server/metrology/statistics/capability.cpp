@@ -164,12 +164,15 @@ Result<void> check(const SpecificationLimits& limits) {
   if (limits.lower && limits.upper && *limits.lower >= *limits.upper) {
     return Error{ErrorCode::LimitsInvalid, "lower must be below upper"};
   }
-  if (limits.target && !(limits.lower && limits.upper)) {
-    const bool beyond =
-        limits.upper ? *limits.target >= *limits.upper : *limits.target <= *limits.lower;
-    if (beyond) {
-      return Error{ErrorCode::LimitsInvalid, "the target must not be beyond the limit", "target"};
-    }
+  if (!limits.target) return {};
+  // A limit of nature may be the target, but not the only limit.
+  const bool both = limits.lower && limits.upper;
+  const auto is_beyond = [both](const Exact& target, const Exact& limit) {
+    return target > limit || (!both && target == limit);
+  };
+  if ((limits.upper && is_beyond(*limits.target, *limits.upper)) ||
+      (limits.lower && is_beyond(*limits.lower, *limits.target))) {
+    return Error{ErrorCode::LimitsInvalid, "the target must not be beyond a limit", "target"};
   }
   return {};
 }

@@ -222,7 +222,10 @@ class Statistics(DaemonTest):
         # The two agree where the target is the middle of both.
         both = self.compute("capability", {"values": values, "lower": "9.9", "upper": "10.1"})["cpm"]
         self.assertEqual(self.compute("capability", {"values": values, "upper": "10.1", "target": 10})["cpm"], both)
-        for wrong in ({"upper": "10.1", "target": "10.1"}, {"lower": "9.9", "target": 9}):
+        # One of both limits may be the target, as 0 of a deviation of form.
+        self.assertGreater(self.compute("capability", {"values": values, "lower": "9.9", "upper": "10.1", "target": "9.9"})["cpm"]["value"], 0)
+        for wrong in ({"upper": "10.1", "target": "10.1"}, {"lower": "9.9", "target": 9}, {"lower": "9.9", "upper": "10.1", "target": "10.11"},
+                      {"lower": "9.9", "upper": "10.1", "target": 1}):
             answer = self.send("capability", {"values": values, **wrong})
             problem = self.assert_problem(answer, 422, "request.invalid")
             self.assertEqual([(e["pointer"], e["code"]) for e in problem["errors"]], [("/target", "limits.invalid")])
