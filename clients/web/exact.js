@@ -34,6 +34,12 @@ export function parseSigned(typed) {
   return sign + join(match[2], match[3] ?? '');
 }
 
+/** A typed length that may be 0 or less, as "-0.5"; null for anything else. */
+export const parseLength = (typed) => parseMeasured(typed) ?? parseSigned(typed);
+
+/** The least measured value in nm: a position, a distance and a deviation may be 0 or less. */
+export const leastOf = (limits) => (['position', 'distance', 'deviation'].includes(limits?.quantity) ? -LARGEST_NM : 1);
+
 function join(whole, fraction) {
   const digits = whole.replace(/^0+(?=\d)/, '');
   return fraction ? `${digits}.${fraction}` : digits;

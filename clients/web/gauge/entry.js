@@ -5,7 +5,7 @@
 
 import { designationText } from '../designation.js';
 import { h } from '../dom.js';
-import { LARGEST_NM, mmText, nmFromMm, parseMeasured } from '../exact.js';
+import { LARGEST_NM, leastOf, mmText, nmFromMm, parseMeasured } from '../exact.js';
 import { number, t } from '../i18n.js';
 import { PAIR_MS } from '../press.js';
 import { forget, readJson, store } from '../stored.js';
@@ -269,7 +269,10 @@ export class Entry {
     const job = this.#job();
     if (job.reason) return this.#refuse(job.reason);
     const nm = nmFromMm(text);
-    if (nm <= 0 || nm > LARGEST_NM) return this.#refuse(t('entry.out_of_range', { typed: this.input.value.trim() }));
+    const typed = this.input.value.trim();
+    const least = leastOf(job.limits);
+    if (nm < 0 && least > 0) return this.#refuse(t('entry.malformed', { typed }));
+    if (nm < least || nm > LARGEST_NM) return this.#refuse(t('entry.out_of_range', { typed }));
     if (this.correcting && nm === nmFromMm(this.correcting.record.measured_mm)) return this.#refuse(t('correct.nothing'));
     if (isFar(nm, job)) return this.#ask(text, job);
     return this.#accept(text);

@@ -259,7 +259,7 @@ export class Job {
 /** How a designation was understood. */
 const understood = (limits, envelope) => [
   h('strong', `${limits.designation ? designationText(limits.designation) : number(limits.nominal_mm)}${envelope ? ' (E)' : ''}`),
-  h('span', [t(`feature.${limits.feature}`), isThread(limits) && t('job.pitch_diameter')].filter(Boolean).join(', ')),
+  h('span', [limits.feature && t(`feature.${limits.feature}`), isThread(limits) && t('job.pitch_diameter')].filter(Boolean).join(', ')),
   h('span.figures', limitsText(limits)),
   limits.tolerance_um !== undefined && h('span.tolerance', t('limits.tolerance', { um: toleranceText(limits) })),
   limits.basis === 'custom' && h('span.own-basis', t('limits.custom')),

@@ -1,7 +1,7 @@
 /** What a line that was typed or scanned means. Whatever is not wholly one thing is nothing. */
 
 import { parseDesignation } from '../designation.js';
-import { boundsOf, nmFromMm, parseMeasured } from '../exact.js';
+import { boundsOf, nmFromMm, parseLength, parseMeasured } from '../exact.js';
 
 /** Keys of one scan follow each other faster than fingers. */
 export const BURST_GAP_MS = 30;
@@ -93,16 +93,16 @@ function nameOf(line, pattern) {
 
 /** The value of a line that somebody typed or a gauge sent, as "25.0081"; null for anything else. */
 export function gaugeValue(line) {
-  const typed = parseMeasured(line);
+  const typed = parseLength(line);
   const [, sent] = typed === null && OF_A_GAUGE.exec(line) || [];
-  return typed ?? (sent ? parseMeasured(sent.replace(/\s/g, '')) : null);
+  return typed ?? (sent ? parseLength(sent.replace(/\s/g, '')) : null);
 }
 
 /** Inches as millimetres, exactly; as "25.012904". */
 export function mmOfInches(text) {
-  const [whole, fraction = ''] = text.split('.');
+  const [, sign, whole, fraction = ''] = /^(-?)(\d+)(?:\.(\d+))?$/.exec(text);
   const digits = String(BigInt(whole + fraction) * 254n).padStart(fraction.length + 2, '0');
-  return `${digits.slice(0, -fraction.length - 1)}.${digits.slice(-fraction.length - 1)}`.replace(/0+$/, '').replace(/\.$/, '');
+  return `${sign}${digits.slice(0, -fraction.length - 1)}.${digits.slice(-fraction.length - 1)}`.replace(/0+$/, '').replace(/\.$/, '');
 }
 
 /** A code that a shop prints for its stations: letters and signs that lie elsewhere in other layouts of keys. */

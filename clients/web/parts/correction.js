@@ -2,7 +2,7 @@
 
 import { url } from '../api.js';
 import { field, h } from '../dom.js';
-import { Decimal, LARGEST_NM, nmFromMm, parseMeasured } from '../exact.js';
+import { Decimal, LARGEST_NM, leastOf, nmFromMm, parseLength } from '../exact.js';
 import { ledger } from '../gauge/ledger.js';
 import { isFar } from '../gauge/reading.js';
 import { number, t } from '../i18n.js';
@@ -26,9 +26,9 @@ export function correct(record) {
   /** What is sent, or null with a note why not. */
   function correction() {
     const refuse = (why) => { note.textContent = why; return null; };
-    const measured = parseMeasured(value.value.trim());
-    const nm = measured === null ? 0 : nmFromMm(measured);
-    if (nm <= 0 || nm > LARGEST_NM) return refuse(t('correct.malformed', { typed: value.value.trim() }));
+    const measured = parseLength(value.value.trim());
+    const nm = measured === null ? NaN : nmFromMm(measured);
+    if (!(nm >= leastOf(record) && nm <= LARGEST_NM)) return refuse(t('correct.malformed', { typed: value.value.trim() }));
     const own = record.part_id ?? '';
     const { name: named, why } = part.value.trim() === own ? { name: own } : nameOf(part, 'part_id', record);
     if (why) return refuse(why);

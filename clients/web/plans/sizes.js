@@ -1,6 +1,6 @@
 /** Sizes with limits as people write them, and as a plan has them: 25 H7, M10-6H, 8 +0.036/0, 40 ±0.1, 12 ≥ 11.9. */
 
-import { Decimal, mmText, nmFromMm, nmFromUm, parseMeasured, parseSigned } from '../exact.js';
+import { Decimal, mmText, nmFromMm, nmFromUm, parseLength, parseSigned } from '../exact.js';
 import { number } from '../i18n.js';
 
 const SIZE = '[Øø⌀∅\\s]*([\\-−]?\\d[\\d.,]*)\\s*(?:mm)?';
@@ -38,13 +38,10 @@ export function umOfMm(mm) {
 const um = (mm) => new Decimal(umOfMm(mm));
 const given = (members) => Object.fromEntries(Object.entries(members).filter(([, value]) => value !== undefined));
 
-/** A nominal size; that of a position may be negative. */
-const parseNominal = (typed) => parseSigned(typed) ?? parseMeasured(typed);
-
 /** A limit alone, beside its nominal size or without: {nominal_mm, upper_um or lower_um}. */
 function oneLimit([, size, sign, text], kind) {
   const limit = parseSigned(text);
-  const nominal = size ? parseNominal(size) : kind === 'deviation' ? '0' : limit;
+  const nominal = size ? parseLength(size) : kind === 'deviation' ? '0' : limit;
   if (nominal === null || limit === null) return null;
   const deviation = um(mmText(nmFromMm(limit) - nmFromMm(nominal), 0));
   return { nominal_mm: new Decimal(nominal), ...(/[≤<]/.test(sign) ? { upper_um: deviation } : { lower_um: deviation }) };
@@ -56,7 +53,7 @@ export function limitsTyped(typed, kind = '') {
   const [both, two, one] = [BOTH, TWO, ONE].map((form) => form.exec(text));
   if (one) return oneLimit(one, kind) ?? { designation: text };
   const parts = both ? [both[1], both[2], `-${both[2]}`] : two ? two.slice(1) : [];
-  const [nominal, ...deviations] = parts.map((part, i) => (i ? parseSigned(part) : parseNominal(part)));
+  const [nominal, ...deviations] = parts.map((part, i) => (i ? parseSigned(part) : parseLength(part)));
   if (!parts.length || [nominal, ...deviations].includes(null)) return { designation: text };
   const [upper, lower] = deviations.sort((first, second) => nmFromMm(second) - nmFromMm(first));
   return { nominal_mm: new Decimal(nominal), upper_um: um(upper), lower_um: um(lower) };

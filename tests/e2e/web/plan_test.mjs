@@ -323,6 +323,36 @@ describe('a plan', () => {
     page.errors.length = 0;
     await close(page);
   });
+
+  it('takes values of 0 and less where a deviation or a position is asked, and of no size', async () => {
+    await daemon.send('PUT', '/v1/plans/4711-Z', { characteristics: [
+      { name: 'bore', designation: '25 H7' },
+      { name: 'flatness', nominal_mm: 0, quantity: 'deviation', upper_um: 50 },
+      { name: 'seat', nominal_mm: -50, quantity: 'position', upper_um: 100, lower_um: -100 },
+    ] });
+    page = await open(browser, daemon, '#/gauge');
+    await page.waitForSelector('.plan select:visible');
+    await line('4711-Z');
+    await progress('1 of 3');
+    await line('Z-00001');
+    const shows = (selector, text) => page.waitForFunction(([of, wanted]) => document.querySelector(of)?.textContent.includes(wanted), [selector, text]);
+    await line('-25.01');
+    await shows('#entry-note', 'is not a value');
+    await page.keyboard.press('Escape');
+    await line('25.01');
+    await progress('2 of 3');
+    await shows('.echo', '0≤ 0.050 mm'); // not those of the bore
+    await line('0');
+    await progress('3 of 3');
+    await shows('.echo', '−50.100 to −49.900 mm');
+    await line('-50.02');
+    await progress('All 3 measured');
+    await page.waitForFunction(() => document.querySelectorAll('.recent li.stored').length === 3);
+    const records = (await daemon.stored()).filter(({ part_id: part }) => part === 'Z-00001');
+    assert.deepEqual(records.map(({ characteristic, measured_mm: mm, verdict: word }) => [characteristic, mm, word]),
+      [['bore', 25.01, 'good'], ['flatness', 0, 'good'], ['seat', -50.02, 'good']]);
+    await close(page);
+  });
 });
 
 describe('a gauge in use', () => {
