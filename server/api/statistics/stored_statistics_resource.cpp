@@ -50,9 +50,12 @@ void find_capability(const Services& services, const Request& request, Responder
                 auto selected = TRY(std::move(selection).selected(ignore));
                 if (target) selected.limits.target = exact_mm(*target);
                 auto made =
-                    TRY(metrology::assess_capability(selected.data, selected.limits, confidence));
+                    metrology::assess_capability(selected.data, selected.limits, confidence);
+                if (!made && made.error().where == "target")
+                  return Error{made.error().code, made.error().message, "target_mm"};
+                if (!made) return made.error();
                 return body_json(Stored<CapabilityAnswer>{
-                    selected, {std::move(made), selected.limits, confidence, name_in(selected)}});
+                    selected, {*std::move(made), selected.limits, confidence, name_in(selected)}});
               });
 }
 

@@ -219,6 +219,8 @@ class Stored(DaemonTest):
                             ("capability?target_mm=x", "length.malformed")]:
             with self.subTest(query):
                 self.assert_problem(self.daemon.get("/v1/measurements/" + query), 400, code)
+        problem = self.daemon.get("/v1/measurements/capability?characteristic=equal&target_mm=80")
+        self.assertEqual((problem.status, problem.json["code"], problem.json["where"]), (422, "limits.invalid", "target_mm"))
         problem = self.daemon.get("/v1/measurements/chart?characteristic=equal&phase1_to=9")
         self.assertEqual(problem.status, 422, problem)
 
