@@ -126,10 +126,14 @@ std::string rounded(const JsonValue& of, std::string_view name, int decimals) {
 void print_selection(const Context& context, const JsonValue& document) {
   const JsonValue& selection = document.member("selection");
   const std::string_view subgroups = selection.text_of("subgroups");
-  context.print("{} values{}, {} to {}, limits {} to {} mm\n", selection.text_of("count"),
+  const std::string_view lower = selection.text_of("lower_limit_mm");
+  const std::string_view upper = selection.text_of("upper_limit_mm");
+  context.print("{} values{}, {} to {}, {} mm\n", selection.text_of("count"),
                 subgroups == "0" ? "" : fmt::format(" in {} subgroups", subgroups),
                 selection.text_of("first_id"), selection.text_of("last_id"),
-                selection.text_of("lower_limit_mm"), selection.text_of("upper_limit_mm"));
+                lower.empty()   ? fmt::format("upper limit {}", upper)
+                : upper.empty() ? fmt::format("lower limit {}", lower)
+                                : fmt::format("limits {} to {}", lower, upper));
 }
 
 void print_violations(const Context& context, const JsonValue& document) {

@@ -115,6 +115,13 @@ class Reservations(ClientTest):
         self.assertIn("envelope failed: ", said(1, "--record", "--go-gauge", "fails"))
         self.assertNotIn("envelope", self.assert_runs(0, "gauge", "25H7", "25.01"))
 
+    def test_figures_of_values_with_one_limit_name_it(self):
+        for name, limit in (("flat", {"upper_um": 50}), ("wall", {"lower_um": -50})):
+            self.daemon.measure([{"nominal_mm": 5, "quantity": "distance", **limit, "characteristic": name, "measured_mm": f"5.00{i}"} for i in range(1, 7)])
+        for command in "capability", "chart":
+            self.assertIn(", upper limit 5.05 mm\n", self.assert_runs(0, command, "--characteristic", "flat"))
+            self.assertIn(", lower limit 4.95 mm\n", self.assert_runs(0, command, "--characteristic", "wall"))
+
     def test_capability_names_the_distribution_or_why_there_is_none(self):
         normal = [25.01 + 0.002 * statistics.NormalDist().inv_cdf((number + 0.5) / 100) for number in range(100)]
         for name, values in (("normal", normal), ("even", [25 + 0.0001 * (number % 101) for number in range(100)]),
