@@ -54,11 +54,12 @@ Matrix3 current_rotation(const Channel& channel) {
 /// PLANE AXIAL: the plane across the tool with the rotary axes at these positions.
 NcResult<Matrix3> axial(const Channel& channel, const PlaneWords& words) {
   const MachineState& state = channel.state();
-  Vec3 rotary = state.nose.rotary;
+  Vec3 rotary = state.position().rotary;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto it = words.find(static_cast<Letter>(i + 3));
     if (it != words.end()) rotary[i] = it->second;
   }
+  rotary = state.frames.rotary_to_machine(rotary, CoordinateSystem::Input);
   return plane_of(state.kinematics.tool_on_table(rotary, state.tool_axis()),
                   state.kinematics.table(rotary).inverse().direction({1, 0, 0}));
 }

@@ -83,15 +83,16 @@ Vec3 tool_at(const MachineState& state, const Vec3& rotary) {
   return unit(on_table.direction_from_machine(tool));
 }
 
-/// MOVE keeps the tip in place on the workpiece, TURN does not move the linear axes.
-NcResult<void> turn(Channel& channel, const Vec3& rotary, const PlaneMoves& moves) {
+/// Turns the axes to `rotary`, in input coordinates `shown`. MOVE keeps the tip in place on the
+/// workpiece, TURN does not move the linear axes.
+NcResult<void> turn(Channel& channel, const Vec3& rotary, const Vec3& shown,
+                    const PlaneMoves& moves) {
   Machine& machine = channel.machine();
   if (moves.retraction) TRY(retract(channel, *moves.retraction));
   const Modes before = machine.state().modes;
   Modes during = before;
   during.tcpm = moves.positioning == PlanePositioning::Move;
   TRY(machine.set_modes(during));
-  const Vec3 shown = machine.state().frames.rotary_from_machine(rotary, CoordinateSystem::Input);
   AxisWords target;
   for (const RotaryAxis& axis : machine.state().kinematics.axes())
     target[axis.axis] = shown[index(axis.axis) - 3];
@@ -110,10 +111,11 @@ NcResult<void> apply(Channel& channel, const Frames& frames, const std::optional
                      const PlaneMoves& moves) {
   TRY(channel.machine().set_frames(frames));
   if (!rotary) return {};
-  set_plane_angles(channel, *rotary);
+  const Vec3 shown = frames.rotary_from_machine(*rotary, CoordinateSystem::Input);
+  set_plane_angles(channel, shown);
   const bool turns =
       moves.positioning == PlanePositioning::Turn || moves.positioning == PlanePositioning::Move;
-  return turns ? turn(channel, *rotary, moves) : NcResult<void>();
+  return turns ? turn(channel, *rotary, shown, moves) : NcResult<void>();
 }
 
 /// The datum shift relative to the workpiece system, tilted or not.

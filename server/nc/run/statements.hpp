@@ -63,7 +63,8 @@ constexpr bool is_preassigned(std::uint32_t cell) {
 /// these.
 void update_preassigned(Channel& channel);
 
-/// Q120 to Q122: the rotary positions that PLANE or cycle 19 has computed, in degrees.
+/// Q120 to Q122: the rotary positions that PLANE or cycle 19 has computed, in degrees and input
+/// coordinates, as `L A+Q120 C+Q122` needs them.
 void set_plane_angles(Channel& channel, const machine::Vec3& rotary);
 
 // motion_words.cpp, positioning.cpp

@@ -248,6 +248,21 @@ TEST_CASE("PLANE turns the axes and the coordinates") {
   check_values(mill.last, "Q4=0, Q5=0");
 }
 
+TEST_CASE("Q120 to Q122 and PLANE AXIAL count from the zero of each rotary axis") {
+  Mill mill;
+  mill.setup.machine.presets[0].frame.rotary_offsets_deg = {0, 0, 10};
+  const auto axes_after = [&](const std::string& blocks) {
+    mill.moves("TRANS DATUM AXIS C+5\n" + blocks +
+               "\nFN 18: SYSREAD Q1 = ID240 NR1 IDX4\nFN 18: SYSREAD Q2 = ID240 NR1 IDX6");
+    return value(mill.last, "Q1") + " " + value(mill.last, "Q2");
+  };
+  const std::string plane = "PLANE SPATIAL SPA+30 SPB+0 SPC+0 ";
+  CHECK(axes_after(plane + "TURN FMAX") == "30 0");
+  CHECK(axes_after(plane + "STAY\nL A+Q120 C+Q122 FMAX") == "30 0");
+  CHECK(axes_after("PLANE AXIAL A+30 C+20 TURN FMAX") == "30 35");
+  CHECK(axes_after("L C+20 FMAX\nPLANE AXIAL A+30 STAY\nL A+Q120 C+Q122 FMAX") == "30 35");
+}
+
 TEST_CASE("the datum shift before a tilted plane is its origin and comes back with PLANE RESET") {
   Mill mill;
   mill.moves(
