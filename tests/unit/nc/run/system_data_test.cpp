@@ -229,6 +229,14 @@ TEST_CASE("an unknown system datum is an error, never 0") {
   CHECK(system_data("ID20 NR1.5").starts_with("failed line 3: Input value incorrect"));
 }
 
+TEST_CASE("the basic rotation of FN 18 is around the tool axis") {
+  for (const std::string axis : {"X", "Y", "Z"}) {
+    CHECK(system_data("ID210 NR1", "TOOL CALL 30 " + axis +
+                                       "\nTCH PROBE 404 SET BASIC ROTATION Q307=+20 Q305=+0") ==
+          "20");
+  }
+}
+
 TEST_CASE("FN 17 writes tools, presets and the datum table") {
   Control control;
   control.file("zero.d", "BEGIN ZERO .D MM\nNR      X         Y\n3       +0        +0\n[END]\n");
