@@ -171,7 +171,7 @@ class TableAccess {
 
   /// SEL TABLE. @errors as open.
   NcResult<void> select_datum_table(const ControlPath& path);
-  bool has_datum_table() const { return datum_.has_value(); }
+  bool has_datum_table() const { return datum_ != nullptr; }
   /// A cell of the datum table: mm or degrees; nothing if the axis has no column, or its cell
   /// is blank. @errors 1043, missing row, a cell that is no number.
   NcResult<std::optional<double>> datum(std::int64_t row, machine::Axis axis) const;
@@ -203,15 +203,18 @@ class TableAccess {
   };
 
   NcResult<Table> load(const ControlPath& path, std::string_view what);
-  NcResult<void> save(std::optional<Table>& table);
+  /// Loads a file as one of the two tables. They share their content if both are of this file.
+  NcResult<void> load_as(std::shared_ptr<Table>& table, std::shared_ptr<Table>& other,
+                         const ControlPath& path, std::string_view what);
+  NcResult<void> save(const std::shared_ptr<Table>& table);
   /// The content to change: a copy of the file's.
   static tabfile::TabTable& editable(Table& table);
 
   RunFiles& files_;
   QParameters& parameters_;
   Allowance& allowance_;
-  std::optional<Table> open_;
-  std::optional<Table> datum_;
+  std::shared_ptr<Table> open_;
+  std::shared_ptr<Table> datum_;
   std::map<std::string, Known> known_;  // by key
   std::vector<OpenedTable> opened_;
   std::vector<ToolCell> tool_cells_;

@@ -68,8 +68,19 @@ NcResult<TableAccess::Table> TableAccess::load(const ControlPath& path, std::str
   return Table{file->path, known.content};
 }
 
-NcResult<void> TableAccess::save(std::optional<Table>& table) {
-  if (!table || table->changed == nullptr) return {};
+NcResult<void> TableAccess::load_as(std::shared_ptr<Table>& table, std::shared_ptr<Table>& other,
+                                    const ControlPath& path, std::string_view what) {
+  TRY(save(table));
+  table.reset();
+  const bool is_shared = other != nullptr && other->path == path;
+  if (is_shared) TRY(save(other));
+  table = std::make_shared<Table>(TRY(load(path, what)));
+  if (is_shared) other = table;
+  return {};
+}
+
+NcResult<void> TableAccess::save(const std::shared_ptr<Table>& table) {
+  if (table == nullptr || table->changed == nullptr) return {};
   table->changed.reset();
   return files_.write(table->path, tabfile::write_tab(*table->content));
 }
@@ -83,10 +94,7 @@ TabTable& TableAccess::editable(Table& table) {
 }
 
 NcResult<void> TableAccess::open(const ControlPath& path) {
-  TRY(save(open_));
-  open_.reset();
-  open_ = TRY(load(path, "table"));
-  return {};
+  return load_as(open_, datum_, path, "table");
 }
 
 NcResult<void> TableAccess::read(QRef first, std::int64_t row, std::string_view columns,
@@ -137,10 +145,7 @@ NcResult<void> TableAccess::write(QRef first, std::int64_t row, std::string_view
 }
 
 NcResult<void> TableAccess::select_datum_table(const ControlPath& path) {
-  TRY(save(datum_));
-  datum_.reset();
-  datum_ = TRY(load(path, "datum table"));
-  return {};
+  return load_as(datum_, open_, path, "datum table");
 }
 
 NcResult<std::optional<double>> TableAccess::datum(std::int64_t row, machine::Axis axis) const {

@@ -252,6 +252,24 @@ TEST_CASE("FN 17 writes tools, presets and the datum table") {
         "failed line 2: ID20 NR1 is not available");
 }
 
+TEST_CASE("FN 26 and SEL TABLE of one file see and keep each other's rows") {
+  Control control;
+  control.file("zero.d", "BEGIN ZERO .D MM\nNR      X\n1       +1\n2       +2\n[END]\n");
+  const std::string shift = "CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 #1\n";
+  const std::string shown = "FN 18: SYSREAD Q2 = ID220 NR2 IDX1\n";
+  const std::string select = "SEL TABLE \"zero.d\"\n";
+  const std::string open = "FN 26: TABOPEN ZERO.D\n";
+  const std::string write = "Q1 = 70\nFN 27: TABWRITE 1/\"X\" = Q1\n";
+  check_completes(control.run(open + write + select + shift + shown), "Q2=70");
+  check_completes(control.run(select + open + write + shift + shown), "Q2=70");
+  const RunResult result = control.run(select + open + write +
+                                       "FN 17: SYSWRITE ID500 NR2 IDX1 = +80\n"
+                                       "FN 28: TABREAD Q3 = 2/\"X\"");
+  check_completes(result, "Q3=80");
+  REQUIRE(result.files.size() == 1);
+  CHECK(result.files[0].bytes == "BEGIN ZERO .D MM\nNR      X\n1       70\n2       80\n[END]\n");
+}
+
 TEST_CASE("a datum table in INCH has lengths in inches and angles in degrees") {
   Control control;
   control.setup.features = {machine::Block{{25.4, -50, -40}, {90, 50, 0}}};
