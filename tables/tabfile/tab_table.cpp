@@ -14,15 +14,20 @@ std::optional<Number> to_number(std::string_view text) {
   return read_number<Number>(text);
 }
 
-/// A number with `,` or `.` as its decimal mark.
+/// A finite number with `,` or `.` as its decimal mark.
 std::optional<double> to_decimal(std::string_view text) {
   std::string pointed(text);
   if (pointed.find('.') == std::string::npos) {
     const std::size_t mark = pointed.find(',');
     if (mark != std::string::npos) pointed[mark] = '.';
   }
-  return to_number<double>(pointed);
+  const auto value = to_number<double>(pointed);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
+
+/// Types of columns that hold decimal numbers.
+constexpr std::array<std::string_view, 8> kNumericTypes{"N",   "L",     "LENGTH", "FEED",
+                                                        "INT", "IFEED", "FLOAT",  "DEC"};
 
 /// To 1 nm without trailing zeros, with fewer decimals if they do not fit.
 std::string shortest(double value, std::size_t width) {
@@ -168,8 +173,7 @@ Result<double> TabTable::number(std::int64_t row, std::string_view column) const
     return Error{ErrorCode::TableCellEmpty,
                  fmt::format("table {} is blank in {}", header_.name, place_of(row, column))};
   }
-  const auto value = to_decimal(written);
-  if (value && std::isfinite(*value)) return *value;
+  if (const auto value = to_decimal(written)) return *value;
   return Error{ErrorCode::NumberMalformed,
                fmt::format("table {} has no number in {}: '{}'", header_.name,
                            place_of(row, column), written)};
@@ -204,6 +208,16 @@ Result<void> TabTable::set_text(std::int64_t row, std::string_view column, std::
     return Error{ErrorCode::TableCellTooLong,
                  fmt::format("'{}' is longer than the {} characters of {} in table {}", written,
                              target.width, place_of(row, column), header_.name)};
+  }
+  if (std::ranges::any_of(written, [](char c) { return static_cast<unsigned char>(c) < ' '; })) {
+    return Error{ErrorCode::FieldInvalid,
+                 fmt::format("the text for {} has a control character", place_of(row, column))};
+  }
+  const bool is_numeric = std::ranges::find(kNumericTypes, target.type) != kNumericTypes.end();
+  if (is_numeric && !written.empty() && !to_decimal(written)) {
+    return Error{ErrorCode::NumberMalformed,
+                 fmt::format("table {} takes a number in {}, not '{}'", header_.name,
+                             place_of(row, column), written)};
   }
   changed_[place] = written;
   return {};

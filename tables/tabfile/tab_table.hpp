@@ -73,7 +73,8 @@ class TabTable {
   Result<void> set_number(std::int64_t row, std::string_view column, double value);
 
   /// @errors TableRowMissing, TableColumnMissing, TableCellTooLong; FieldInvalid for the first
-  ///   column, which numbers the rows.
+  ///   column, which numbers the rows, and for a control character; NumberMalformed for a text in
+  ///   a column of numbers.
   Result<void> set_text(std::int64_t row, std::string_view column, std::string_view value);
 
   friend bool operator==(const TabTable& left, const TabTable& right);

@@ -217,6 +217,9 @@ TEST_CASE("cells are written with the decimals of their column and refused when 
   CHECK(points.set_number(7, "Y", 1).error().code == ErrorCode::TableRowMissing);
   CHECK(points.set_text(1, "Z", "a").error().code == ErrorCode::TableColumnMissing);
   CHECK(points.set_number(1, "NR", 0).error().code == ErrorCode::FieldInvalid);
+  CHECK(points.set_text(1, "Y", "1O").has_error());
+  CHECK(points.set_text(1, "Y", "nan").has_error());
+  CHECK(points.set_text(1, "Y", "1\n2").error().code == ErrorCode::FieldInvalid);
   CHECK(points == before);
   REQUIRE(points.set_text(1, "Y", " ").has_value());
   CHECK(points.number(1, "Y").error().code == ErrorCode::TableCellEmpty);
