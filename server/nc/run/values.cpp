@@ -110,7 +110,7 @@ NcResult<std::string> system_string(Channel& channel, Operands operands) {
 NcResult<double> to_number(std::string source) {
   for (char& c : source) c = c == ',' ? '.' : c;
   std::string_view digits = trim(source);
-  if (digits.starts_with('+')) digits.remove_prefix(1);
+  if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value,
                                             std::chars_format::fixed);

@@ -100,6 +100,13 @@ TEST_CASE("strings") {
       "QS8=TNC:\\nc_prog\\main.h, QS10=20.11.2026 08:05:09");
 }
 
+TEST_CASE("TONUMB takes one sign") {
+  Control control;
+  check_completes(control.run("QS1 = \"+1,5\"\nQ1 = TONUMB( SRC_QS1 )"), "Q1=1.5");
+  CHECK(outcome(control.run("QS1 = \"+-1\"\nQ1 = TONUMB( SRC_QS1 )")) ==
+        "failed line 3: TONUMB: '+-1' is not a number");
+}
+
 TEST_CASE("a string parameter holds 255 characters") {
   Control control;
   const std::string half(128, 'x');
