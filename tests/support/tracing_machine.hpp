@@ -60,7 +60,7 @@ inline std::string text_of(const ToolCall& call) {
   if (call.number) text += fmt::format(" {}", *call.number);
   if (call.axis) text += fmt::format(" {}", name(*call.axis));
   if (call.spindle_rpm) text += fmt::format(" S{:g}", *call.spindle_rpm);
-  return text + fmt::format(" DL{:+.4f} DR{:+.4f}", call.dl, call.dr);
+  return text + fmt::format(" DL{:+.4f} DR{:+.4f}", call.dl.value_or(0), call.dr.value_or(0));
 }
 
 }  // namespace trace_text

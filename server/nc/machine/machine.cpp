@@ -27,15 +27,20 @@ Machine::Machine(const MachineSetup& setup, std::unique_ptr<Axes> axes, Allowanc
 MachineResult<void> Machine::call_tool(const ToolCall& call) {
   if (!call.axis && !state_.tool.axis) return make_fault(FaultKind::ToolAxisMissing);
   TRY(require(!call.axis || !is_rotary(*call.axis), "the tool axis is X, Y or Z"));
-  TRY(require(is_finite({call.dl, call.dr, call.dr2}) && call.spindle_rpm.value_or(0) >= 0,
+  ActiveTool tool = state_.tool;
+  if (call.number) tool = {*call.number, tool.axis};
+  if (call.axis) tool.axis = call.axis;
+  tool.dl = call.dl.value_or(tool.dl);
+  tool.dr = call.dr.value_or(tool.dr);
+  tool.dr2 = call.dr2.value_or(tool.dr2);
+  TRY(require(is_finite({tool.dl, tool.dr, tool.dr2}) && call.spindle_rpm.value_or(0) >= 0,
               "S, DL, DR and DR2 of a tool call are numbers"));
   if (call.number && *call.number != 0) {
-    const Tool* tool = state_.tools.find(*call.number);
-    if (tool == nullptr) return make_fault(FaultKind::ToolUnknown, "tool {}", *call.number);
-    if (tool->locked) return make_fault(FaultKind::ToolLocked, "tool {}", *call.number);
+    const Tool* row = state_.tools.find(*call.number);
+    if (row == nullptr) return make_fault(FaultKind::ToolUnknown, "tool {}", *call.number);
+    if (row->locked) return make_fault(FaultKind::ToolLocked, "tool {}", *call.number);
   }
-  if (call.number) state_.tool = {*call.number, state_.tool.axis, call.dl, call.dr, call.dr2};
-  if (call.axis) state_.tool.axis = call.axis;
+  state_.tool = tool;
   if (call.spindle_rpm) state_.modes.spindle_rpm = *call.spindle_rpm;
   return {};
 }

@@ -45,14 +45,15 @@ struct ContactPoint {
   double seconds = 0;  ///< of the travel to the contact
 };
 
-/// TOOL CALL. Without a number only the named values change.
+/// TOOL CALL. Without a number only the named values change; with one, oversizes that are not named
+/// are 0.
 struct ToolCall {
   std::optional<int> number;  ///< 0 empties the spindle
   std::optional<Axis> axis;
   std::optional<double> spindle_rpm;
-  double dl = 0;  ///< mm
-  double dr = 0;
-  double dr2 = 0;
+  std::optional<double> dl{};  ///< mm
+  std::optional<double> dr{};
+  std::optional<double> dr2{};
 };
 
 enum class MoveKind : std::uint8_t { Rapid, Feed, Probe, Arc };

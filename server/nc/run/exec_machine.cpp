@@ -95,11 +95,6 @@ NcResult<void> execute(Channel& channel, const klartext::ToolCall& call) {
   if (!is_absent(call.tool)) {
     command.number = TRY(tool_number(channel, call.tool));
     channel.prepared_tool = 0;
-  } else {
-    const machine::ActiveTool& active = channel.state().tool;
-    command.dl = active.dl;
-    command.dr = active.dr;
-    command.dr2 = active.dr2;
   }
   const double unit = channel.length_unit();
   for (const Word& word : channel.program().view(call.words)) {

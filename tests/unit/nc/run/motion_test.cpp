@@ -38,6 +38,14 @@ TEST_CASE("FMAX is not modal, F AUTO is the feed of TOOL CALL, FU and FZ follow 
               "L X+4 Y+0 Z+400 F500", "L X+5 Y+0 Z+400 F200", "L X+6 Y+0 Z+400 F200"});
 }
 
+TEST_CASE("TOOL CALL without a number changes only what it names") {
+  Mill mill;
+  mill.moves(
+      "TOOL CALL DL+0.5 DR+0.1\nQ1 = Q114\nQ2 = Q108\nTOOL CALL S300\nQ3 = Q114\nTOOL CALL DL+0\n"
+      "Q4 = Q114\nQ5 = Q108\nTOOL CALL 5\nQ6 = Q108");
+  check_completes(mill.last, "Q1=100.5, Q2=4.1, Q3=100.5, Q4=100, Q5=4.1, Q6=4");
+}
+
 TEST_CASE("an undefined parameter leaves its axis out of a positioning block") {
   Mill mill;
   CHECK(mill.moves("L X+Q1 Y+7 FMAX\nL X-Q2 FMAX") == Lines{"L X+0 Y+7 Z+400 FMAX"});
