@@ -34,7 +34,7 @@ MachineResult<void> Machine::call_tool(const ToolCall& call) {
   tool.dr = call.dr.value_or(tool.dr);
   tool.dr2 = call.dr2.value_or(tool.dr2);
   TRY(require(is_finite({tool.dl, tool.dr, tool.dr2}) && call.spindle_rpm.value_or(0) >= 0,
-              "S, DL, DR and DR2 of a tool call are numbers"));
+              "S of a tool call is 0 or more; DL, DR and DR2 are numbers"));
   if (call.number && *call.number != 0) {
     const Tool* row = state_.tools.find(*call.number);
     if (row == nullptr) return make_fault(FaultKind::ToolUnknown, "tool {}", *call.number);

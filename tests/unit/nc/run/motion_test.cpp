@@ -44,6 +44,10 @@ TEST_CASE("TOOL CALL without a number changes only what it names") {
       "TOOL CALL DL+0.5 DR+0.1\nQ1 = Q114\nQ2 = Q108\nTOOL CALL S300\nQ3 = Q114\nTOOL CALL DL+0\n"
       "Q4 = Q114\nQ5 = Q108\nTOOL CALL 5\nQ6 = Q108");
   check_completes(mill.last, "Q1=100.5, Q2=4.1, Q3=100.5, Q4=100, Q5=4.1, Q6=4");
+  mill.moves("TOOL CALL S-1");
+  CHECK(outcome(mill.last) ==
+        "failed line 3: Input value incorrect: S of a tool call is 0 or more; DL, DR and DR2 are "
+        "numbers");
 }
 
 TEST_CASE("an undefined parameter leaves its axis out of a positioning block") {
