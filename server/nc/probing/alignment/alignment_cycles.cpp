@@ -1,6 +1,7 @@
 #include "nc/probing/alignment/rotation.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/parameters.hpp"
+#include "nc/probing/preset/preset_cycle.hpp"
 
 namespace fitgauge::probing::alignment_cycles {
 
@@ -130,6 +131,7 @@ CycleResult<void> zero(const CycleContext& context, Axis rotary) {
 CycleResult<void> align_line(const CycleContext& context) {
   const int wanted = context.whole(312);
   if (wanted > 0 && wanted < 4) return nc_error(1019, "Q312 is 0, 4 (A), 5 (B) or 6 (C)");
+  if (context.whole(337) == 1) TRY(check_transfer(context));
   auto motion = TRY(begin_alignment(context));
   const auto edge = TRY(probe_line(context, motion));
   const auto [around, angle] = misalignment(edge, motion.plane());
@@ -179,7 +181,7 @@ constexpr TouchProbeCycle kCycles[] = {
           errors::kUnscaled | ErrorSet{1081, 1085, 1100}, after<begin_alignment, two_studs>,
           "All parameters."),
     cycle(403, "ROT IN ROTARY AXIS", CycleKind::Alignment, k403Parameters, kAngleResults,
-          errors::kUnscaled | ErrorSet{1019, 1042, 1043, 1081, 1085, 1100}, align_line,
+          errors::kUnscaled | ErrorSet{1019, 1042, 1043, 1078, 1081, 1085, 1100}, align_line,
           "All parameters. Q380 counts in the working plane.",
           "Rotary axes of a head: they cannot turn the workpiece."),
     cycle(405, "ROT IN C AXIS", CycleKind::Alignment, k405Parameters, kAngleResults,

@@ -99,10 +99,14 @@ void publish_circle(const CycleContext& context, Side side, const ProbedCircle& 
                .form = probed.form});
 }
 
+CycleResult<void> check_transfer(const Arguments& arguments) {
+  if (arguments.whole(303) != -1 || arguments.whole(305) == 0) return {};
+  return nc_error(1078, "0 is the datum table, 1 the preset table");
+}
+
 CycleResult<ProbingMotion> begin_preset(const CycleContext& context) {
   TRY(refuse_mirror_and_scaling(context.state().frames));
-  if (context.whole(303) == -1 && context.whole(305) != 0)
-    return nc_error(1078, "0 is the datum table, 1 the preset table");
+  TRY(check_transfer(context));
   return ProbingMotion::begin(context);
 }
 

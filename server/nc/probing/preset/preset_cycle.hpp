@@ -15,9 +15,12 @@ struct DatumPoint {
   Vec3 datum{};  ///< the new coordinates of the point, of the named axes
 };
 
+/// @errors 1078 Q303 = -1 with Q305 not 0: the target is not defined.
+CycleResult<void> check_transfer(const Arguments& arguments);
+
 /// Begins every preset cycle, before any motion.
-/// @errors 1078 Q303 = -1 with Q305 not 0: the target is not defined; 1008 and 1007 with mirror and
-///   scaling active; those of ProbingMotion::begin.
+/// @errors those of check_transfer; 1008 and 1007 with mirror and scaling active; those of
+///   ProbingMotion::begin.
 CycleResult<ProbingMotion> begin_preset(const CycleContext& context);
 
 /// Writes the datum as Q303 and Q305 say. Q305 = 0: row 0 of the preset table becomes the active
