@@ -1,6 +1,7 @@
 /** Uncertainty budgets as a table: a row for each contribution, evaluated as one types, with a model where the quantity is computed of others. */
 
 import { getJson, request, url } from '../api.js';
+import { Asked } from '../asked.js';
 import { mayDrop, readDocument, sayStoredFirst, writeDocument } from '../documents.js';
 import { field, h, refill } from '../dom.js';
 import { explain, number, t } from '../i18n.js';
@@ -50,10 +51,10 @@ export class Budgets {
       h('p.aside', t('budget.how')), this.note, this.result,
       h('p.actions', this.adding,
         h('button.primary', { type: 'button', onclick: () => this.#try(() => this.#store()) }, t('budget.store')), this.done));
-    this.#try(async () => {
-      await this.#list(name);
-      await this.open(name);
-    });
+    new Asked(async () => {
+      await this.#list(this.#opened?.name ?? name);
+      if (!this.#opened) await this.open(name);
+    }, { say: (text) => { this.note.textContent = text; }, leaving }).run();
   }
 
   async #try(act) {

@@ -1,6 +1,7 @@
 /** The gauges in use with their calibrations: what each period says, a form for the next, and one for a gauge. */
 
 import { getJson, request, url } from '../api.js';
+import { Asked } from '../asked.js';
 import { connection } from '../connection.js';
 import { findDocument, writeDocument } from '../documents.js';
 import { field, h, refill } from '../dom.js';
@@ -20,6 +21,7 @@ export class Calibrations {
   constructor({ gauge, onGauge, leaving }) {
     Object.assign(this, { gauge, onGauge, leaving });
     this.reading = new Latest(leaving);
+    this.asked = new Asked(() => this.reading.run((signal) => this.#read(signal)), { say: (text) => { this.note.textContent = text; }, leaving });
     this.budgets = h('datalist', { id: 'budgets' });
     this.rows = h('tbody');
     this.empty = h('p.empty', { hidden: true }, t('gauges.none'));
@@ -34,27 +36,23 @@ export class Calibrations {
       h('details.add-gauge', h('summary', t('gauges.add')), h('form.line', { novalidate: true, onsubmit: (event) => this.#send(event, () => this.#storeGauge()) },
         field(t('field.gauge'), this.own.name), field(t('calibration.due'), this.own.calibration_due), field(t('calibration.uncertainty'), this.own.uncertainty),
         h('button.primary', { type: 'submit' }, t('gauges.store')))), this.budgets);
-    this.#send(null, () => this.read());
+    this.asked.run();
     getJson(url(['uncertainties']), { signal: leaving, asks: false }).then(({ uncertainties }) => refill(this.budgets, uncertainties.map(({ name }) => h('option', { value: name }))), () => {});
   }
 
-  /** @param event of a form, whose second click sends nothing again; null: of none */
+  /** @param event of a form, whose second click sends nothing again */
   async #send(event, act) {
-    event?.preventDefault();
-    if (event && this.isSending) return;
-    this.isSending ||= Boolean(event);
+    event.preventDefault();
+    if (this.isSending) return;
+    this.isSending = true;
     this.note.textContent = '';
     try {
       await act();
     } catch (problem) {
       if (!this.leaving.aborted) this.note.textContent = explain(problem);
     } finally {
-      if (event) this.isSending = false;
+      this.isSending = false;
     }
-  }
-
-  read() {
-    return this.reading.run((signal) => this.#read(signal));
   }
 
   async #read(signal) {
@@ -79,7 +77,8 @@ export class Calibrations {
     }
     this.gauge = name;
     this.onGauge(name);
-    this.#send(null, () => this.read());
+    this.note.textContent = '';
+    this.asked.run();
   }
 
   #clear() {
@@ -101,7 +100,7 @@ export class Calibrations {
   async #record(gauge) {
     await request('POST', url(['gauges-in-use', gauge, 'calibrations']), { body: valuesOf(this.inputs), signal: this.leaving });
     if (this.gauge === gauge) this.#clear();
-    await this.read();
+    await this.asked.run();
     this.note.textContent = t('calibration.recorded', { gauge });
   }
 

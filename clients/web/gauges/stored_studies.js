@@ -1,6 +1,7 @@
 /** The gauge studies that the service keeps: a table of them, and what stores the one of the form. */
 
 import { getJson, url } from '../api.js';
+import { Asked } from '../asked.js';
 import { connection } from '../connection.js';
 import { readDocument, sayStoredFirst, writeDocument } from '../documents.js';
 import { field, h, refill } from '../dom.js';
@@ -30,7 +31,8 @@ export class StoredStudies {
       h('form.line', { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#try(() => this.#store()); } },
         field(t('study.name'), this.inputs.name), field(t('field.gauge'), this.inputs.gauge), field(t('study.at'), this.inputs.at), h('button', { type: 'submit' }, t('study.store'))),
       this.note, this.done, this.gauges);
-    this.#try(() => this.#list());
+    this.listing = new Asked(() => this.#list(), { say: (text) => { this.note.textContent = text; }, leaving });
+    this.listing.run();
     gaugeNames(leaving).then((names) => refill(this.gauges, names.map((value) => h('option', { value }))));
   }
 
@@ -85,7 +87,7 @@ export class StoredStudies {
     }
     const study = await this.#read(name);
     if (this.textOf() === typed) await this.onStudy(study);
-    await this.#list();
+    await this.listing.run();
     this.done.textContent = t('study.done', { name });
   }, () => this.textOf() + Object.values(this.inputs).map(({ value }) => value).join());
 }

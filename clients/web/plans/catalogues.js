@@ -1,6 +1,7 @@
 /** Catalogues of causes and actions, which the station offers after a value that is not good: each as two lists in their order. */
 
 import { getJson, url } from '../api.js';
+import { Asked } from '../asked.js';
 import { confirm } from '../confirm.js';
 import { mayDrop, readDocument, removeDocument, sayStoredFirst, writeDocument } from '../documents.js';
 import { field, h, refill } from '../dom.js';
@@ -39,13 +40,14 @@ export class Catalogues {
     this.element = h('section.catalogues', { 'aria-labelledby': 'catalogues-title' }, h('h2', { id: 'catalogues-title' }, t('catalogue.title')), h('p.hint', t('catalogue.how')),
       h('p.actions', this.names, button('catalogue.begin', () => this.#edit())), this.done, this.note, this.form);
     addEventListener('pagehide', () => this.keepDraft(), { signal: leaving });
+    this.listing = new Asked(() => this.#list(), { say: (text) => { this.note.textContent = text; }, leaving });
     this.#show();
   }
 
   /** @param name of the one that is opened */
   begin(name) {
     this.#attempt(async () => {
-      await this.#list();
+      await this.listing.run();
       const kept = name === undefined ? storedKeys(DRAFTS, 'session')[0] : DRAFTS + name;
       const draft = kept && readJson(kept, null, 'session');
       if (draft) {
@@ -132,7 +134,7 @@ export class Catalogues {
     const { body, tag } = await readDocument(pathOf(name), this.leaving);
     this.#fill(body, { name, tag });
     this.done.textContent = said;
-    await this.#list();
+    await this.listing.run();
   }
 
   async #edit() {
@@ -146,7 +148,7 @@ export class Catalogues {
     this.#current = null;
     go({ view: 'plans' }, { refine: true });
     this.#show();
-    await this.#list();
+    await this.listing.run();
   }
 
   /** An entry; Enter in it goes on to the next, and several lines that are pasted are an entry each. */
@@ -214,7 +216,7 @@ export class Catalogues {
     this.onStored();
     const kept = isOther && await removeDocument(pathOf(old), tag).then(() => '', explain);
     this.done.textContent = [t('catalogue.stored', { name, causes: value.causes.length, measures: value.measures.length }), kept && t('catalogue.old_stays', { old, reason: kept })].filter(Boolean).join(' ');
-    await this.#list();
+    await this.listing.run();
   }, () => this.#text);
 
   /** Says at its entry what is wrong. */

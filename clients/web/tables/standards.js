@@ -1,9 +1,10 @@
 /** The numbers of other standards than ISO 286: general tolerances, threads, keyways, bearings. */
 
 import { getJson, url } from '../api.js';
+import { Asked } from '../asked.js';
 import { field, h } from '../dom.js';
 import { parseMeasured } from '../exact.js';
-import { explain, has, number, signed, t } from '../i18n.js';
+import { has, number, signed, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { fragment, go } from '../route.js';
 
@@ -49,28 +50,29 @@ function grid(name, rows) {
 export function mountStandard(main, name, wanted = '') {
   const leaving = new AbortController();
   const asking = new Latest(leaving.signal);
-  const find = h('input', { id: 'find', type: 'search', inputmode: 'decimal', autocomplete: 'off', oninput: () => refresh() });
+  const find = h('input', { id: 'find', type: 'search', inputmode: 'decimal', autocomplete: 'off', oninput: () => asked.run() });
   find.value = wanted;
   const note = h('p.note', { role: 'status' });
   const tables = h('div.standard');
   main.replaceChildren(h('div.desk.tables', h('h1.unseen', { tabindex: -1 }, t('view.tables')),
     h('form.line', { onsubmit: (event) => event.preventDefault() }, standardChoice(name), field(t('tables.size'), find)), note, tables));
 
-  async function refresh() {
+  const asked = new Asked(async () => {
     const size = parseMeasured(find.value);
     go({ view: 'tables', path: [name], options: { find: find.value.trim() } }, { refine: true });
-    try {
-      const found = await asking.run((signal) => getJson(url(['standards', name], { size_mm: size }), { signal }));
-      if (!found) return;
-      note.textContent = found.rows.length ? '' : t('error.size.out_of_range');
-      const names = [...new Set(found.rows.map(({ table }) => table))];
-      tables.replaceChildren(h('p.aside', `${found.edition} · ${t('tables.units')}`), ...names.map((each) =>
-        h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t(`tables.of.${each}`) }, grid(each, found.rows.filter(({ table }) => table === each)))));
-    } catch (problem) {
-      note.textContent = explain(problem);
-    }
+    const found = await asking.run((signal) => getJson(url(['standards', name], { size_mm: size }), { signal }));
+    if (!found) return;
+    note.textContent = found.rows.length ? '' : t('error.size.out_of_range');
+    const names = [...new Set(found.rows.map(({ table }) => table))];
+    tables.replaceChildren(h('p.aside', `${found.edition} · ${t('tables.units')}`), ...names.map((each) =>
+      h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t(`tables.of.${each}`) }, grid(each, found.rows.filter(({ table }) => table === each)))));
+  }, { say: (text) => text && nothing(text), leaving: leaving.signal });
+
+  function nothing(reason) {
+    note.textContent = reason;
+    tables.replaceChildren();
   }
 
-  refresh();
+  asked.run();
   return () => leaving.abort();
 }

@@ -36,6 +36,8 @@ export function mount(main, route) {
   let shown = null;
   let known = [];
   let timer = 0;
+  let isAsked = false;
+  let toOpen = route.path[0];
 
   main.replaceChildren(h('div.desk.connections', h('h1.unseen', { tabindex: -1 }, t('view.connections')), note, table, form));
 
@@ -120,36 +122,41 @@ export function mount(main, route) {
     await list();
   });
 
+  /** Asked again and again, so after an outage too; for a key only once. */
   async function list() {
     clearTimeout(timer);
     try {
-      const found = await getJson(url(['connections']), { signal });
+      if (!kinds.size) await offerKinds();
+      const asks = !isAsked;
+      isAsked = true;
+      const found = await getJson(url(['connections']), { signal, asks });
       await untilLifted();
       known = found.connections;
       note.textContent = known.length ? '' : t('connection.none');
       table.hidden = !known.length;
       refill(rows, known.map((one) => row(one, { onOpen: () => open(one), onRemove: () => remove(one) })));
+      openNamed();
     } catch (problem) {
       if (!signal.aborted) note.textContent = explain(problem);
     }
     if (!signal.aborted) timer = setTimeout(list, EVERY_MS);
   }
 
-  async function start() {
-    try {
-      all = await schemas();
-      kinds = new Map(all.ConnectionOrder.oneOf.map((one) => resolved(one, all)).map((schema) => [kindOf(schema), schema]));
-      kind.append(...[...kinds.keys()].map((each) => h('option', { value: each }, t(`connection.kind.${each}`))));
-      draw();
-      await list();
-      const named = known.find((one) => one.name === route.path[0]);
-      if (named) open(named);
-    } catch (problem) {
-      note.textContent = explain(problem);
-    }
+  async function offerKinds() {
+    all = await schemas();
+    kinds = new Map(all.ConnectionOrder.oneOf.map((one) => resolved(one, all)).map((schema) => [kindOf(schema), schema]));
+    kind.append(...[...kinds.keys()].map((each) => h('option', { value: each }, t(`connection.kind.${each}`))));
+    draw();
   }
 
-  start();
+  /** The one that the address names, unless somebody has begun another meanwhile. */
+  function openNamed() {
+    const named = !name.value && known.find((one) => one.name === toOpen);
+    toOpen = undefined;
+    if (named) open(named);
+  }
+
+  list();
   return () => {
     leaving.abort();
     clearTimeout(timer);

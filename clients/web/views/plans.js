@@ -1,5 +1,6 @@
 /** Plans: what there are, a form for each, and new ones from drawings and tables. */
 
+import { Asked } from '../asked.js';
 import { confirm } from '../confirm.js';
 import { mayDrop, sayStoredFirst } from '../documents.js';
 import { h, refill } from '../dom.js';
@@ -95,12 +96,13 @@ export function mount(main, route) {
     editor.hidden = true;
   }
 
-  async function refresh() {
+  const listing = new Asked(async () => {
     const plans = await listPlans(signal);
     none.hidden = plans.length > 0;
     table.hidden = !plans.length;
     refill(rows, plans.map(row));
-  }
+  }, { say: (text) => { done.textContent = text; }, leaving: signal });
+  const refresh = () => listing.run();
 
   function row({ part, name, characteristics, modified_at: at }) {
     const act = (word, onclick) => h('button.quiet', { type: 'button', 'aria-label': t(`${word}_this`, { part }), onclick: () => attempt(onclick) }, t(word));
@@ -246,14 +248,17 @@ export function mount(main, route) {
   }
 
   addEventListener('pagehide', keepDraft, { signal });
-  show();
-  attempt(async () => {
-    if (restore()) return;
+  /** What the address names, unless somebody has opened another meanwhile. */
+  const beginning = new Asked(async () => {
     const part = route.path.join('/');
+    if (current) return;
     if (part) await open(part);
     else if (route.options.new) edit();
     else await refresh();
-  });
+  }, { say: (text) => { done.textContent = text; }, leaving: signal });
+
+  show();
+  if (!restore()) beginning.run();
   catalogues.begin(route.options.catalogue);
   return () => {
     keepDraft();

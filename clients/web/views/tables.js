@@ -1,6 +1,7 @@
 /** The tables: search by size and class, copy as CSV, custom tolerance classes. */
 
 import { get, url } from '../api.js';
+import { Asked } from '../asked.js';
 import { copyText, field, h, refill } from '../dom.js';
 import { downloadLink } from '../download.js';
 import { parseDesignation } from '../designation.js';
@@ -25,7 +26,7 @@ export function mount(main, route) {
   let feature = FEATURES.includes(route.path[0]) ? route.path[0] : 'hole';
   let names = null;
   let shown = { classes: [], sizes: [] };
-  const find = h('input', { id: 'find', type: 'search', autocomplete: 'off', spellcheck: 'false', oninput: () => { copied = ''; refresh(); } });
+  const find = h('input', { id: 'find', type: 'search', autocomplete: 'off', spellcheck: 'false', oninput: () => { copied = ''; ask(); } });
   find.value = route.options.find ?? '';
   /** That a table was copied: it stays where the tables are only asked for again. */
   let copied = '';
@@ -33,7 +34,7 @@ export function mount(main, route) {
   const table = h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t('view.tables') });
   const features = h('div.switch', { role: 'group', 'aria-label': t('tables.feature') });
   const whole = downloadLink({ id: 'whole-table' }, t('tables.whole'), (reason) => { note.textContent = reason; });
-  const own = new OwnColumns({ onChange: () => reload(), onShow: (name) => { find.value = name; copied = ''; refresh(); } });
+  const own = new OwnColumns({ onChange: () => ask(true), onShow: (name) => { find.value = name; copied = ''; ask(); } });
 
   main.replaceChildren(h('div.desk.tables', h('h1.unseen', { tabindex: -1 }, t('view.tables')),
     h('form.line', { onsubmit: (event) => event.preventDefault() }, standardChoice(), features, field(t('tables.find'), find),
@@ -62,20 +63,14 @@ export function mount(main, route) {
     shown = wanted;
     go({ view: 'tables', path: [feature], options: { find: find.value.trim() } }, { refine: true });
     if (!wanted.classes.length) {
-      note.textContent = wanted.elsewhere ? t(`tables.elsewhere.${feature}`, { name: wanted.elsewhere }) : t('tables.none');
-      return table.replaceChildren();
+      return nothing(wanted.elsewhere ? t(`tables.elsewhere.${feature}`, { name: wanted.elsewhere }) : t('tables.none'));
     }
-    try {
-      const { rows } = await tableRows(feature, wanted.classes);
-      if (shown !== wanted) return null;
-      note.textContent = copied;
-      const matching = rows.filter((row) => holds(row, wanted.sizes));
-      if (!matching.length) note.textContent = t('error.size.out_of_range');
-      return table.replaceChildren(grid(matching, wanted.classes, names.own[feature]));
-    } catch (problem) {
-      note.textContent = explain(problem);
-      return null;
-    }
+    const { rows } = await tableRows(feature, wanted.classes);
+    if (shown !== wanted) return null;
+    note.textContent = copied;
+    const matching = rows.filter((row) => holds(row, wanted.sizes));
+    if (!matching.length) note.textContent = t('error.size.out_of_range');
+    return table.replaceChildren(grid(matching, wanted.classes, names.own[feature]));
   }
 
   const holds = (row, sizes) => !sizes.length || sizes.some((size) => nmFromMm(row.over_mm) < size && size <= nmFromMm(row.up_to_mm));
@@ -97,25 +92,31 @@ export function mount(main, route) {
 
   function drawFeatures() {
     refill(features, FEATURES.map((each) => h('button', {
-      type: 'button', 'aria-pressed': String(each === feature), onclick: () => { feature = each; copied = ''; reload(); },
+      type: 'button', 'aria-pressed': String(each === feature), onclick: () => { feature = each; copied = ''; ask(true); },
     }, t(`tables.${each}`))));
     whole.href = url(['tables', feature], { format: 'csv' });
     whole.download = `${feature}.csv`;
   }
 
-  async function reload() {
-    drawFeatures();
-    try {
+  const asked = new Asked(async (isAnew) => {
+    if (isAnew || !names) {
+      drawFeatures();
       names = await classNames();
       own.show(feature, names.own[feature]);
-      await refresh();
-    } catch (problem) {
-      note.textContent = explain(problem);
     }
+    await refresh();
+  }, { again: () => ask(true), say: (text) => text && nothing(text), leaving: leaving.signal });
+  /** @param isAnew whether the classes may be others than those that are known */
+  const ask = (isAnew) => asked.run(isAnew);
+
+  /** No table stands below a note that says why there is none. */
+  function nothing(reason) {
+    note.textContent = reason;
+    table.replaceChildren();
   }
 
-  reload();
-  followTables(leaving.signal, reload);
+  ask(true);
+  followTables(leaving.signal, () => ask(true));
   return () => leaving.abort();
 }
 

@@ -50,6 +50,22 @@ describe('the connections', () => {
     await page.waitForFunction(() => document.querySelector('.connections > .note').textContent === 'No connections yet.');
   });
 
+  it('are asked for again after an outage, with the form of each kind, but for a key only once', async () => {
+    page = await open(browser, daemon, '#/tables');
+    await page.route(/openapi\.json/, (route) => route.abort());
+    await page.click('#link a');
+    await page.waitForFunction(() => /cannot be reached/.test(document.querySelector('.connections > .note')?.textContent));
+    await page.route(/\/v1\/connections/, (route) => route.fulfill({ status: 401, contentType: 'application/problem+json', body: '{"code":"auth.missing"}' }));
+    await page.unroute(/openapi\.json/);
+    await page.waitForSelector('.schema-fields');
+    await page.click('dialog button:not(.primary)');
+    const asked = () => page.waitForResponse((answer) => answer.status() === 401);
+    for (let again = 0; again < 2; ++again) await asked();
+    assert.equal(await page.$('dialog'), null);
+    await page.unroute(/\/v1\/connections/);
+    await page.waitForFunction(() => document.querySelector('.connections > .note').textContent === 'No connections yet.');
+  });
+
   it('tell what is wrong at its field, and store nothing', async () => {
     page = await open(browser, daemon, '#/connections');
     await page.waitForSelector('.schema-fields');

@@ -95,6 +95,40 @@ describe('while the service is away', () => {
     }
   });
 
+  it('a view that is opened meanwhile asks again, and says nothing more of it', async () => {
+    await daemon.send('PUT', '/v1/gauges-in-use/G-1', { calibration_due: '2027-03-31' });
+    await daemon.send('PUT', '/v1/uncertainties/bore', { contributions: [{ name: 'gauge', standard_uncertainty: 0.0005 }] });
+    await daemon.send('PUT', '/v1/studies/first', { gauge: 'G-1', at: '2026-11-27', kind: 'type1', input: { values: [25.001, 25.002, 25.003], reference: 25.002, tolerance: 0.021 } });
+    await daemon.send('PUT', '/v1/catalogues/turning', { causes: ['worn'], measures: [] });
+    await daemon.send('PUT', '/v1/plans/4711', { characteristics: [{ name: 'bore', designation: '25 H7' }] });
+    const views = [
+      ['tables/shaft?find=g6', '.grid tbody tr'], ['tables/iso492', '.standard tbody tr'],
+      ['gauges/G-1?budget=bore', '.gauges-in-use tbody tr', '.of-gauge form', '.budgets option[value="bore"]', '.budgets tbody tr', '.stored-studies tbody tr'],
+      ['plans', '.plans-there tbody tr', '.catalogues li button'], ['plans/4711', '.editor:not([hidden]) .characteristic'],
+    ];
+    page = await open(browser, daemon, '#/gauge');
+    const tabs = [];
+    for (const [address, ...shown] of views) {
+      const tab = await openIn(page.context(), daemon, `#/${address}`);
+      for (const each of shown) await tab.waitForSelector(each, { state: 'attached' });
+      await tab.evaluate(() => { location.hash = '#/gauge'; });
+      await tab.waitForSelector('#value');
+      tabs.push(tab);
+    }
+    await daemon.kill();
+    const noted = (wanted) => [...document.querySelectorAll('.desk :is(.note, .done)')].some(({ textContent }) => textContent !== '') === wanted;
+    for (const [i, [address]] of views.entries()) {
+      await tabs[i].evaluate((hash) => { location.hash = hash; }, `#/${address}`);
+      await tabs[i].waitForFunction(noted, true);
+    }
+    await daemon.start();
+    for (const [i, [address, ...shown]] of views.entries()) {
+      for (const each of shown) await tabs[i].waitForSelector(each, { state: 'attached' });
+      await tabs[i].waitForFunction(noted, false);
+      assert.deepEqual(tabs[i].errors, [], address);
+    }
+  });
+
   it('a new build replaces what was kept', async () => {
     page = await open(browser, daemon, '#/gauge/25H7', { serviceWorkers: 'allow' });
     await kept('/app.js');
