@@ -98,6 +98,8 @@ export default {
   'file.empty': '{name} hat keine Zeile, die ein Merkmal sein könnte.',
   'file.no_names': '{name} hat keine Spalte mit Namen. Die erste Zeile nennt die Spalten: {names}.',
   'file.several': '{name} ist von mehreren Teilenummern: {parts}. Für jede eine Datei anlegen.',
+  'file.twice': '{name} hat eine Spalte doppelt: {names}.',
+  'file.unnamed': '{name} hat in dieser Zeile eine Zelle ohne Überschrift: {row}. Einen Text mit Komma in Anführungszeichen setzen.',
   'file.added': '{count} Merkmale aus {name}. Gespeichert ist noch nichts.',
   'file.unused': 'Nicht gelesene Spalten: {names}.',
   'file.broken': '{name} ist nicht lesbar: {reason}',

@@ -98,6 +98,8 @@ export default {
   'file.empty': '{name} has no row that could be a characteristic.',
   'file.no_names': '{name} has no column of names. Its first row has these columns: {names}.',
   'file.several': '{name} has several part numbers: {parts}. Make a file for each.',
+  'file.twice': '{name} has a column twice: {names}.',
+  'file.unnamed': '{name} has a cell without a heading in this row: {row}. Put a text with a comma between quotes.',
   'file.added': '{count} characteristics from {name}. Nothing is stored yet.',
   'file.unused': 'Columns not read: {names}.',
   'file.broken': '{name} cannot be read: {reason}',

@@ -98,6 +98,8 @@ export default {
   'file.empty': '{name} non ha righe che possano essere una caratteristica.',
   'file.no_names': '{name} non ha una colonna di nomi. La prima riga nomina le colonne: {names}.',
   'file.several': '{name} è di più codici: {parts}. Fare un file per ciascuno.',
+  'file.twice': '{name} ha una colonna due volte: {names}.',
+  'file.unnamed': '{name} ha in questa riga una cella senza intestazione: {row}. Mettere un testo con virgola tra virgolette.',
   'file.added': '{count} caratteristiche da {name}. Nulla è ancora salvato.',
   'file.unused': 'Colonne non lette: {names}.',
   'file.broken': '{name} non è leggibile: {reason}',

@@ -98,6 +98,8 @@ export default {
   'file.empty': '{name} heeft geen rij die een kenmerk kan zijn.',
   'file.no_names': '{name} heeft geen kolom met namen. De eerste rij noemt de kolommen: {names}.',
   'file.several': '{name} is van meer onderdeelnummers: {parts}. Maak voor elk een bestand.',
+  'file.twice': '{name} heeft een kolom dubbel: {names}.',
+  'file.unnamed': '{name} heeft in deze rij een cel zonder kop: {row}. Zet een tekst met een komma tussen aanhalingstekens.',
   'file.added': '{count} kenmerken uit {name}. Er is nog niets opgeslagen.',
   'file.unused': 'Niet gelezen kolommen: {names}.',
   'file.broken': '{name} is niet leesbaar: {reason}',

@@ -21,10 +21,19 @@ function columnOf(heading) {
     ?? ['name', 'size', 'kind', 'gauge', ...MEMBERS.slice(8)].find((each) => plain(t(`plans.member.${each}`)) === named);
 }
 
-/** The rows of a text: separated by `;`, tabs or commas, whichever its first line has most of; quotes as RFC 4180. */
+/** The row of headings, whose columns it names; null without one. A title may stand above it. */
+function headingOf(rows) {
+  const at = rows.findIndex((row) => row.some((cell) => columnOf(cell) === 'name'));
+  return at < 0 ? null : { at, names: rows[at].map(columnOf) };
+}
+
+/** The rows of a text: separated by `;`, tabs or commas, whichever gives most columns a known heading; quotes as RFC 4180. */
 export function rowsOfText(text) {
-  const [first] = text.split('\n', 1);
-  const [separator] = [';', '\t', ','].sort((one, other) => first.split(other).length - first.split(one).length);
+  const known = (rows) => headingOf(rows)?.names.filter(Boolean).length ?? 0;
+  return [';', '\t', ','].map((separator) => rowsBy(separator, text.replace(/\r\n?/g, '\n'))).reduce((best, rows) => (known(rows) > known(best) ? rows : best));
+}
+
+function rowsBy(separator, text) {
   const rows = [['']];
   let quoted = false;
   for (let i = text.charCodeAt(0) === 0xfeff ? 1 : 0; i < text.length; ++i) {
@@ -32,9 +41,9 @@ export function rowsOfText(text) {
     const sign = text[i];
     if (quoted && sign === '"' && text[i + 1] === '"') row[row.length - 1] += text[++i];
     else if (sign === '"' && (quoted || !row.at(-1))) quoted = !quoted;
-    else if (quoted || ![separator, '\n', '\r'].includes(sign)) row[row.length - 1] += sign;
+    else if (quoted || ![separator, '\n'].includes(sign)) row[row.length - 1] += sign;
     else if (sign === separator) row.push('');
-    else if (sign === '\n') rows.push(['']);
+    else rows.push(['']);
   }
   return rows.map((row) => row.map((cell) => cell.trim())).filter((row) => row.some(Boolean));
 }
@@ -51,24 +60,31 @@ const deviation = (mm) => {
 /** A row as a plan has it: limits as one text, or in columns of their own, with deviations in µm or mm. */
 function characteristicOf(cells) {
   const given = (name) => cells[name] || undefined;
-  const kind = Object.keys(KINDS).find((each) => each && plain(t(`plans.kind.${each}`)) === plain(given('kind') ?? '')) ?? '';
+  const word = plain(given('kind') ?? '');
+  const kind = Object.keys(KINDS).find((each) => [each, t(`plans.kind.${each}`)].some((one) => plain(one) === word));
   const deviations = { upper_um: given('upper_mm') && deviation(cells.upper_mm), lower_um: given('lower_mm') && deviation(cells.lower_mm) };
   // Beside deviations of their own a size is the nominal one.
   const isNominal = Object.values(deviations).some(Boolean) || given('upper_um') || given('lower_um') || given('tolerance_class');
   const size = given('size') && (isNominal ? { nominal_mm: decimal(cells.size.replace(/^[Øø⌀∅\s]+/, '')) } : limitsTyped(cells.size, kind));
   const own = MEMBERS.filter(given).map((name) => [name, NUMBERS.has(name) ? decimal(cells[name]) : name === 'inside_corner' ? WORDS[plain(cells[name])] ?? cells[name] : cells[name]]);
-  const { feature, ...quantity } = KINDS[kind];
+  // The service says what is wrong with another word.
+  const { feature, ...quantity } = KINDS[kind] ?? { quantity: cells.kind };
   const isClass = size?.designation ?? given('designation') ?? given('tolerance_class');
   return JSON.parse(toJson({ ...size, ...(isNominal && deviations), ...(!isClass && feature && { feature }), ...quantity, ...Object.fromEntries(own) }));
 }
 
 /** @returns {part, characteristics, unused}; `problem` says why there are none, with what to say of it */
 export function planOfRows(rows) {
-  const columns = (row) => row.map(columnOf);
-  const at = rows.findIndex((row) => columns(row).includes('name'));
-  if (at < 0) return { problem: 'file.no_names', values: { names: MEMBERS.slice(0, 7).join(', ') } };
-  const names = columns(rows[at]);
-  const found = rows.slice(at + 1).map((row) => Object.fromEntries(row.map((cell, i) => [names[i], cell]))).filter(({ name }) => name);
+  const heading = headingOf(rows);
+  if (!heading) return { problem: 'file.no_names', values: { names: MEMBERS.slice(0, 7).join(', ') } };
+  const { at, names } = heading;
+  const twice = rows[at].filter((_, i) => names[i] && names.indexOf(names[i]) !== names.lastIndexOf(names[i]));
+  if (twice.length) return { problem: 'file.twice', values: { names: [...new Set(twice)].join(', ') } };
+  // A decimal comma between commas moves what follows it into other columns.
+  const wide = rows.slice(at + 1).find((row) => row.some((cell, i) => cell && !rows[at][i]));
+  if (wide) return { problem: 'file.unnamed', values: { row: wide.join(' · ') } };
+  const found = rows.slice(at + 1).map((row) => Object.fromEntries(row.map((cell, i) => [names[i], cell]).filter(([name, cell]) => name && cell)))
+    .filter(({ part: _, ...members }) => Object.keys(members).length);
   if (!found.length) return { problem: 'file.empty', values: {} };
   const parts = [...new Set(found.map(({ part }) => part).filter(Boolean))];
   if (parts.length > 1) return { problem: 'file.several', values: { parts: parts.join(', ') } };

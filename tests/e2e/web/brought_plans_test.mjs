@@ -53,9 +53,26 @@ describe('a table', () => {
     assert.deepEqual((await found('T-1')).slice(3), [{ name: 'seat & "more"', nominal_mm: 30, upper_um: 21, lower_um: 0, feature: 'hole', reaction: 'Stop' }]);
   });
 
+  it('is read below a title whatever separates its cells, and no row and no word of it is passed over', async () => {
+    await visit();
+    await dropFile(page, 'mac.csv', 'Housing; made in spring\rname,designation,kind\rbore,25 H7,\r,30 H7,\redge,R2 ISO 2768-m,Fase\r');
+    await says('3 characteristics from mac.csv');
+    await page.fill('[name="part"]', 'T-M');
+    await storePlan();
+    await page.waitForFunction(() => document.querySelector('.characteristics > li:nth-child(2) .of-name .note')?.textContent);
+    await field(2, 'name').fill('seat');
+    await storePlan();
+    await page.waitForFunction(() => document.querySelector('.characteristics > li:nth-child(3) .of-kind .note')?.textContent);
+    await field(3, 'kind').selectOption('radius');
+    await storePlan();
+    await stored('T-M');
+    assert.deepEqual(await found('T-M'), [{ name: 'bore', designation: '25 H7' }, { name: 'seat', designation: '30 H7' }, { name: 'edge', designation: 'R2 ISO 2768-m', quantity: 'radius' }]);
+  });
+
   it('that has no names, no rows, or is none at all, says so', async () => {
     await visit();
     for (const [name, text, answer] of [['a.csv', 'x;y\n1;2\n', /no column of names/], ['b.csv', 'name;size\n', /no row/], ['c.csv', 'part,name,size\nA,x,25 H7\nB,y,25 H7\n', /several part numbers: A, B/],
+      ['f.csv', 'name,upper_um,lower_um,nominal_mm\nbore,21,0,25,5\n', /without a heading in this row: bore · 21 · 0 · 25 · 5/], ['g.csv', 'name;designation;Name\nbore;25 H7;B\n', /a column twice: name, Name/],
       ['d.xlsx', 'PK\x03\x04', /not a workbook/], ['e.stp', 'ISO-10303-21;\nHEADER;', /cannot be read/]]) {
       await dropFile(page, name, text);
       await page.waitForFunction((pattern) => new RegExp(pattern).test(document.querySelector('.drop-zone > .note').textContent), answer.source);
