@@ -88,6 +88,7 @@ enum class ValueKind : std::uint8_t {
 struct ValueRange {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
+  double least = 0;  ///< of the amount: a value nearer to 0 ends the run of the cycle
 
   constexpr bool contains(double value) const { return value >= min && value <= max; }
 };
@@ -146,6 +147,10 @@ using ArgumentValue = std::variant<std::monostate, double, std::string>;
 /// @errors 1004 outside the range, 1011 not whole, not finite, or an unexpected text, 1017 missing.
 CycleResult<void> check(const CycleParameter& parameter, const ArgumentValue& value);
 
+/// Checks a number in the run against ValueRange::least; the check of a program warns of it.
+/// @errors 1042 a direction of 0, 1066 and 1067 a step angle of 0 and near it.
+CycleResult<void> check_amount(const CycleParameter& parameter, double value);
+
 /// The values of one cycle block, in the order of its descriptor's parameters.
 class Arguments {
  public:
@@ -157,7 +162,7 @@ class Arguments {
   /// @pre `id` is a parameter of the cycle.
   void set(ParameterId id, ArgumentValue value);
 
-  /// Puts the defaults into missing parameters and checks all; errors as `check`.
+  /// Puts the defaults into missing parameters and checks all; errors as `check`, `check_amount`.
   CycleResult<void> complete();
 
   /// @pre complete() succeeded and the parameter is a number.

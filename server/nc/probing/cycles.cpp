@@ -74,6 +74,14 @@ CycleResult<void> check(const CycleParameter& parameter, const ArgumentValue& va
   return {};
 }
 
+CycleResult<void> check_amount(const CycleParameter& parameter, double value) {
+  const ValueRange& range = parameter.range;
+  if (std::abs(value) >= range.least) return {};
+  if (parameter.unit == Unit::Angle) return nc_error(value == 0 ? 1066 : 1067);
+  if (range.max == 1) return nc_error(1042, "{} must be -1 or +1", name(parameter));
+  return nc_error(1042, "{} must be {} to {} without 0", name(parameter), range.min, range.max);
+}
+
 std::size_t Arguments::index(ParameterId id) const {
   const CycleParameter* found = descriptor_->find(id);
   assert(found != nullptr);
@@ -89,6 +97,7 @@ CycleResult<void> Arguments::complete() {
     if (std::holds_alternative<std::monostate>(value) && parameter.default_value)
       value = *parameter.default_value;
     TRY(check(parameter, value));
+    if (const auto* number = std::get_if<double>(&value)) TRY(check_amount(parameter, *number));
   }
   return {};
 }

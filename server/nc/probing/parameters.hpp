@@ -68,6 +68,12 @@ constexpr CycleParameter choice(Address address, std::string_view meaning, doubl
           .default_value = by_default};
 }
 
+/// A parameter whose amount must not be less than that.
+constexpr CycleParameter at_least(double least, CycleParameter parameter) {
+  parameter.range.least = least;
+  return parameter;
+}
+
 /// Marks a parameter that cycle blocks of older controls lack.
 constexpr CycleParameter newer(CycleParameter parameter) {
   parameter.newer = true;
@@ -113,7 +119,8 @@ inline constexpr CycleParameter kMeasuringAxisInPlane =
     choice(272, "Measuring axis: 1 main, 2 secondary", 1, 2);
 inline constexpr CycleParameter kMeasuringAxis =
     choice(272, "Measuring axis: 1 main, 2 secondary, 3 probe axis", 1, 3);
-inline constexpr CycleParameter kDirection = choice(267, "Traverse direction: -1 or +1", -1, 1);
+inline constexpr CycleParameter kDirection =
+    at_least(1, choice(267, "Traverse direction: -1 or +1", -1, 1));
 /// Two points of a line, how they are touched and how the probe gets there: 400, 403 and 420.
 constexpr auto line(const CycleParameter& measuring_axis) {
   return list(coordinates(263, "1st point, main axis", "1st point, secondary axis",
@@ -125,7 +132,7 @@ constexpr auto line(const CycleParameter& measuring_axis) {
 /// A circle and how it is touched: 405, 412, 413, 421 and 422.
 constexpr auto circle(const std::array<CycleParameter, 2>& centre) {
   return list(centre, length(262, "Nominal diameter"), angle(325, "Starting angle", 360, 0),
-              angle(247, "Stepping angle", 120), kMeasuringHeight, kSetUpClearance,
+              at_least(5, angle(247, "Stepping angle", 120)), kMeasuringHeight, kSetUpClearance,
               kClearanceHeight, kMoveToClearance);
 }
 /// Exact radius of a ring, stud or sphere.

@@ -397,6 +397,16 @@ class Contradictions {
                               value(limit), is_tolerance ? "is too large for" : "is far from",
                               nominal, value(nominal)));
     }
+    for (const CycleParameter& parameter : descriptor.parameters) {
+      const int number = static_cast<int>(parameter.id);
+      if (!values.contains(number)) continue;
+      const auto checked = probing::check_amount(parameter, value(number));
+      if (!checked) {
+        contradicts(values[number], values[number],
+                    fmt::format("Q{} = {}: the run fails in cycle {}: {}", number, value(number),
+                                descriptor.number, checked.error().text));
+      }
+    }
     const auto known = [&](int number) {
       return values.contains(number) ? std::optional(value(number)) : std::nullopt;
     };

@@ -201,9 +201,8 @@ CycleResult<void> ObjectProbing::transfer(const ObjectFound& found) {
   return correct_preset(context_, plane, turned, moved);
 }
 
-CycleResult<Vec3> object_direction(const Arguments& arguments) {
+Vec3 object_direction(const Arguments& arguments) {
   const int axis = arguments.whole(372);
-  if (axis == 0) return nc_error(1042, "Q372 must be -3 to 3 without 0");
   Vec3 direction;
   direction[static_cast<std::size_t>(std::abs(axis) - 1)] = axis < 0 ? -1 : 1;
   return direction;

@@ -116,8 +116,8 @@ class ObjectProbing {
   ProbingMotion motion_;
 };
 
-/// Q372: a unit vector. @errors 1042 it is 0.
-CycleResult<Vec3> object_direction(const Arguments& arguments);
+/// Q372: a unit vector.
+Vec3 object_direction(const Arguments& arguments);
 /// The angles Q964 and Q965 of a line, in the working plane or to it, and the resulting turn.
 void add_line(ObjectFound& found, const ObjectProbing& probing, const Vec3& nominal,
               const Vec3& measured, bool is_level);
@@ -148,7 +148,7 @@ inline constexpr std::array kPoint2{position(1103, "2nd point, main axis"),
                                     position(1104, "2nd point, secondary axis"),
                                     position(1105, "2nd point, probe axis")};
 inline constexpr CycleParameter kObjectDirection =
-    choice(372, "Direction: 1 main, 2 secondary, 3 probe axis, with its sign", -3, 3);
+    at_least(1, choice(372, "Direction: 1 main, 2 secondary, 3 probe axis, with its sign", -3, 3));
 inline constexpr std::array kObject = list(
     kSetUpClearance, kClearanceHeight,
     choice(

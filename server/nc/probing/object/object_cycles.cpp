@@ -27,7 +27,7 @@ constexpr auto kWidthResults =
     object_results<1>(std::array{CycleOutput{968, "Width", Unit::Length}});
 
 CycleResult<void> probe_face(const CycleContext& context) {
-  const auto direction = TRY(object_direction(context));
+  const auto direction = object_direction(context);
   auto probing = TRY(ObjectProbing::begin(context));
   auto point = TRY(probing.point(1100));
   const auto contacts = TRY(probing.touch({{probing.towards(point.nominal, direction)}}));
@@ -72,7 +72,7 @@ CycleResult<void> probe_width(const CycleContext& context) {
 }
 
 CycleResult<void> extrude(const CycleContext& context) {
-  const auto direction = TRY(object_direction(context));
+  const auto direction = object_direction(context);
   const Vec3 step = direction * (context.number(1146) / context.number(1145));
   context.host.memory().extrusion =
       Extrusion{step, static_cast<std::size_t>(context.whole(1145)), context.whole(1149) == 1};
@@ -206,12 +206,12 @@ CycleResult<void> probe_sphere(const CycleContext& context) {
 constexpr std::array kPoints = list(kPoint1, kPoint2);
 constexpr std::array kLineEnd = list(kObjectDirection, kObject);
 constexpr std::array k1410 = list(kPoints, kLineEnd, transfer_all(3, 2));
-constexpr std::array k1412 =
-    list(kPoint1, tolerance_text("Tolerance across the line, such as \"0.4-0.1\""),
-         angle(1130, "Nominal angle of the line"),
-         choice(1131, "Probing direction: the line turned by +1 or -1 right angle", -1, 1),
-         coordinates(1132, "1st distance along the line", "2nd distance along the line"),
-         choice(1139, "Plane of the line: 1 YZ, 2 ZX, 3 XY", 1, 3, 3), kObject, transfer_all(1, 2));
+constexpr std::array k1412 = list(
+    kPoint1, tolerance_text("Tolerance across the line, such as \"0.4-0.1\""),
+    angle(1130, "Nominal angle of the line"),
+    at_least(1, choice(1131, "Probing direction: the line turned by +1 or -1 right angle", -1, 1)),
+    coordinates(1132, "1st distance along the line", "2nd distance along the line"),
+    choice(1139, "Plane of the line: 1 YZ, 2 ZX, 3 XY", 1, 3, 3), kObject, transfer_all(1, 2));
 constexpr std::array k1420 = list(
     kPoints, position(1106, "3rd point, main axis"), position(1107, "3rd point, secondary axis"),
     position(1108, "3rd point, probe axis"), kLineEnd, transfer_all(4, 1));
@@ -246,7 +246,7 @@ CycleResult<ObjectFound> touch_line(ObjectProbing& probing, ObjectPoint first, O
 }
 
 CycleResult<void> probe_edge(const CycleContext& context) {
-  const auto direction = TRY(object_direction(context));
+  const auto direction = object_direction(context);
   auto probing = TRY(ObjectProbing::begin(context));
   const auto first = TRY(probing.point(1100));
   const auto second = TRY(probing.point(1103));
@@ -256,7 +256,6 @@ CycleResult<void> probe_edge(const CycleContext& context) {
 
 CycleResult<void> probe_inclined(const CycleContext& context) {
   const int turn = context.whole(1131);
-  if (turn == 0) return nc_error(1042, "Q1131 must be -1 or +1");
   auto probing = TRY(ObjectProbing::begin(context));
   const auto start = TRY(probing.point(1100));
   if (start.limits != decltype(start.limits){})
@@ -285,7 +284,7 @@ CycleResult<void> probe_inclined(const CycleContext& context) {
 }
 
 CycleResult<void> probe_plane(const CycleContext& context) {
-  const auto direction = TRY(object_direction(context));
+  const auto direction = object_direction(context);
   auto probing = TRY(ObjectProbing::begin(context));
   ObjectFound found;
   std::vector<Touch> touches;

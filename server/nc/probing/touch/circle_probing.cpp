@@ -99,14 +99,11 @@ Form circle_form(std::span<const Vec3> centres, const Circle& circle, double sta
 
 CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotion& motion,
                                        Side side, const Vec3& centre) {
-  const double step = context.number(247);
-  if (step == 0) return nc_error(1066);
-  if (std::abs(step) < 5) return nc_error(1067);
   const auto touches = circle_touches({.side = side,
                                        .centre = centre,
                                        .diameter = context.number(262),
                                        .start_angle = context.number(325),
-                                       .step = step,
+                                       .step = context.number(247),
                                        .points = static_cast<int>(context.number_or(423, 4)),
                                        .start_distance = motion.start_distance(),
                                        .via_clearance = context.whole(301) == 1,

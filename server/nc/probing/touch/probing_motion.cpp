@@ -185,7 +185,7 @@ double ProbedLine::angle_deg() const {
 }
 
 CycleResult<ProbedLine> probe_line(const CycleContext& context, ProbingMotion& motion) {
-  const auto direction = TRY(probing_direction(context));
+  const int direction = context.whole(267);
   const std::array nominal{place_of(context, 263, 264, 261), place_of(context, 265, 266, 261)};
   ProbedLine line;
   line.axis = static_cast<std::size_t>(context.whole(272) - 1);
@@ -207,15 +207,9 @@ CycleResult<ProbedLine> probe_line(const CycleContext& context, ProbingMotion& m
   return line;
 }
 
-CycleResult<int> probing_direction(const Arguments& arguments) {
-  const int direction = arguments.whole(267);
-  if (direction == 0) return nc_error(1042, "Q267 must be -1 or +1");
-  return direction;
-}
-
 CycleResult<TouchedCoordinate> touch_coordinate(const CycleContext& context,
                                                 ProbingMotion& motion) {
-  const auto direction = TRY(probing_direction(context));
+  const int direction = context.whole(267);
   TouchedCoordinate touched{.axis = static_cast<std::size_t>(context.whole(272) - 1),
                             .nominal = place_of(context, 263, 264, 261),
                             .surface = {}};

@@ -245,11 +245,8 @@ struct ProbedLine {
 };
 
 /// Touches the line of the parameters Q263 to Q266, Q272, Q267, Q261, Q320, Q260, Q301.
-/// @errors 1042 no direction, 1081 both points are the same.
+/// @errors 1081 both points are the same.
 CycleResult<ProbedLine> probe_line(const CycleContext& context, ProbingMotion& motion);
-
-/// Q267. @errors 1042 it is 0.
-CycleResult<int> probing_direction(const Arguments& arguments);
 
 struct TouchedCoordinate {
   std::size_t axis = 0;  ///< 0 main, 1 secondary, 2 probe axis (Q272)
@@ -258,7 +255,6 @@ struct TouchedCoordinate {
 };
 
 /// One touch along an axis at Q263, Q264, Q261 in the direction Q267, as 419 and 427 make it.
-/// @errors 1042 no direction.
 CycleResult<TouchedCoordinate> touch_coordinate(const CycleContext& context, ProbingMotion& motion);
 
 /// One touch at a point against the probe axis, as in 417 and for Q381.
