@@ -303,7 +303,9 @@ Outcome<MeasureJournal> open_journal(const Context& context, const MeasureOption
 /// `fitgauge import`: stores the rows of a CSV in chunks, each with an idempotency key. The journal
 /// has the stored rows and the last chunk before they are needed: a stopped run can continue at any
 /// point and stores no row twice.
-Outcome<ExitCode> run_measure(const Context& context, const MeasureOptions& options) {
+Outcome<ExitCode> run_measure(const Context& context, const MeasureOptions& given) {
+  MeasureOptions options = given;
+  if (!RowInput::is_one(options) && TRY(is_exported(options.input))) options.encoding = "auto";
   auto journal = TRY(open_journal(context, options));
   return Upload(context, options, std::move(journal)).run();
 }
@@ -356,8 +358,9 @@ void add_import(CLI::App& app, Action& chosen) {
                       "Time zone of times without an offset, such as Europe/Berlin");
   measure->add_option("--length-unit", options->length_unit,
                       "Unit of a DFQ file that names none: mm or inch");
-  measure->add_option("--encoding", options->encoding,
-                      "Encoding: auto, utf-8, utf-16 or windows-1252 (default: auto)");
+  measure->add_option(
+      "--encoding", options->encoding,
+      "Encoding of a table of a gauge or a spreadsheet: auto, utf-8, utf-16 or windows-1252");
   measure->add_flag("--leave-out-others", options->leave_out_others,
                     "Ignore columns without a field");
   measure->add_flag("--again", options->again, "Store every row, even if it is stored already");

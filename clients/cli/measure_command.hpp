@@ -233,6 +233,10 @@ class RowInput {
 /// Whether the options are for a table of the shop.
 bool is_converted(const MeasureOptions& options);
 
+/// Whether a file is a table that the service has written, with its computed columns. Reads neither
+/// standard input nor a pipe. @errors LocalFile
+Outcome<bool> is_exported(const std::string& path);
+
 /// Returns one line for each bad field of a chunk, with the line of the input: `night.csv:17:
 /// measured_mm: …`. @param line_of converts a line of the body to a line of the input
 std::string explain_rows(const Problem& problem, const std::string& input,

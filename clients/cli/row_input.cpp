@@ -206,6 +206,21 @@ std::uint64_t RowInput::line_of(const Context& context, const MeasureOptions& op
   return csv_line;
 }
 
+Outcome<bool> is_exported(const std::string& path) {
+  constexpr std::size_t kLongestHeader = 4096;
+  if (path == "-") return false;  // what is read of it is gone
+  auto file = TRY(InputFile::open(path));
+  if (!file.size()) return false;
+  std::string head(kLongestHeader, '\0');
+  head.resize(TRY(file.read(head)));
+  std::string_view rest = std::string_view(head).substr(0, head.find_first_of("\r\n"));
+  std::set<std::string_view> columns;
+  const char separator = rest.find(';') == std::string_view::npos ? ',' : ';';
+  while (!rest.empty()) columns.insert(take_field(rest, separator));
+  return std::ranges::all_of(sheet::kOfExport,
+                             [&](std::string_view name) { return columns.contains(name); });
+}
+
 bool is_converted(const MeasureOptions& options) {
   return !options.encoding.empty() || !options.columns.empty() || !options.constants.empty() ||
          !options.time_zone.empty() || options.leave_out_others;

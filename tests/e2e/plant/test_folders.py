@@ -238,8 +238,8 @@ class Taking(Folders):
             for query, what in (("tolerance_class=H7", f"line {line} has 24.997 mm in lower_limit_mm, but H7 of 25 mm gives 25 mm here"),
                                 ("tolerance_class=g6", f"line {line} is a correction of {corrected}: remove")):
                 path.write_bytes(first.get(f"/v1/measurements?{query}", Accept=kind).body)
-                done = subprocess.run([FITGAUGE, "import", path, "--server", f"http://127.0.0.1:{second.port}", "--state", self.root / "state",
-                                       *(["--encoding", "auto"] if name == "csv" else [])], capture_output=True, text=True, check=False)
+                done = subprocess.run([FITGAUGE, "import", path, "--server", f"http://127.0.0.1:{second.port}", "--state", self.root / "state"],
+                                      capture_output=True, text=True, check=False)
                 self.assertEqual(done.returncode, 5, done.stdout + done.stderr)
                 self.assertIn(what, done.stderr)
                 self.drop(f"{query}.{name}", path.read_bytes())
