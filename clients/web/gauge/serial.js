@@ -25,7 +25,7 @@ async function isSilent(coming) {
 }
 
 export class SerialGauge {
-  /** @param onValue takes the text of a value; @param onUnread why a line is none; @param leaving ends it */
+  /** @param onValue takes the text of a value; @param onUnread why a line is none, and the line, '' where it is lost; @param leaving ends it */
   constructor({ onValue, onUnread, leaving }) {
     Object.assign(this, { onValue, onUnread });
     this.baud = h('select', { name: 'serial_baud', onchange: () => store(KEPT_BAUD, this.baud.value) },
@@ -91,11 +91,11 @@ export class SerialGauge {
           rest = lines.pop().slice(0, LONGEST_LINE);
           const cut = isWhole ? '' : lines.shift()?.trim();
           isWhole ||= cut !== undefined;
-          if (cut) this.onUnread(t('serial.cut', { line: cut }));
+          if (cut) this.onUnread(t('serial.cut', { line: cut }), cut);
           for (const line of lines.filter((each) => each.trim())) this.#take(line.trim());
         }
       } catch {
-        this.onUnread(t('serial.fault'));
+        this.onUnread(t('serial.fault'), '');
       } finally {
         this.reader.releaseLock();
       }
@@ -105,7 +105,7 @@ export class SerialGauge {
   #take(line) {
     const match = this.#expression()?.exec(line);
     if (match) this.onValue(match[1] ?? match[0]);
-    else this.onUnread(t('serial.unread', { line }));
+    else this.onUnread(t('serial.unread', { line }), line);
   }
 
   async #close() {

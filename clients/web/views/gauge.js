@@ -75,7 +75,7 @@ export function mount(main, route) {
     },
   });
   const pad = new NumberPad(entry.input);
-  const serial = new SerialGauge({ onValue: (text) => entry.take(text), onUnread: (reason) => entry.unread(reason), leaving: leaving.signal });
+  const serial = new SerialGauge({ onValue: (text) => entry.take(text), onUnread: unread, leaving: leaving.signal });
   const job = new Job({
     designation: route.path[0] ?? '', options: route.options, choices: [soundChoice(), pad.choice, serial.element],
     onChange: (another) => jobChanged(another), onDone: () => entry.focus(),
@@ -91,6 +91,13 @@ export function mount(main, route) {
     machine: () => job.options.machine, subject: () => job.part, leaving: leaving.signal,
   });
   let stepped = false;
+
+  /** A gauge sent what is no value: no verdict may stand for it. */
+  function unread(why, line) {
+    panel.open(line, why);
+    show();
+    entry.unread(why);
+  }
 
   /** The last value of a part is judged: its verdict gives way to that of the part. */
   function sayPart() {

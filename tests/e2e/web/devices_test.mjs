@@ -173,6 +173,8 @@ describe('a value whose beginning nobody saw', () => {
           return reader;
         };
         port.readable = stream;
+      // The verdict of the value before it stands no more.
+      await page.waitForFunction((text) => document.querySelector('.verdict[data-verdict="open"] .measured')?.textContent === text, line.replace('01A', ''));
       };
       const port = { open: async () => begin('25.013\r\n', 400), close: async () => { port.readable = null; } };
       globalThis.feed = (text) => feed.enqueue(new TextEncoder().encode(text));
