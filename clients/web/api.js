@@ -49,7 +49,10 @@ export function useKey(key) {
   dispatchEvent(new Event('keyentered'));
 }
 
-export const forgetKey = () => forget(KEY, 'session');
+export function forgetKey() {
+  forget(KEY, 'session');
+  dispatchEvent(new Event('keyforgotten'));
+}
 
 /** How many questions wait for their answer; `asking` is told of each change. */
 export let waiting = 0;

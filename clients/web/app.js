@@ -98,11 +98,11 @@ function drawPrinted() {
 function drawLink() {
   const link = document.getElementById('link');
   const said = link.firstElementChild;
-  const state = connection.up ? (queue.size ? 'sending' : 'up') : 'away';
+  const state = !connection.up ? 'away' : queue.isLocked ? 'locked' : queue.size ? 'sending' : 'up';
   const text = t(`link.${state}`, { count: queue.size });
   if (said.textContent !== text) said.textContent = text;
   said.title = t('view.connections');
-  link.dataset.state = queue.size || !connection.up ? state : 'up';
+  link.dataset.state = state;
 }
 
 function drawFrame() {
@@ -139,6 +139,7 @@ document.getElementById('skip').addEventListener('click', (event) => {
 });
 connection.addEventListener('change', drawLink);
 queue.addEventListener('change', drawLink);
+addEventListener('keyentered', () => queue.send());
 addEventListener('asking', drawLoading);
 addEventListener('hashchange', show);
 addEventListener('routechange', () => drawViews(viewOf(currentRoute())));

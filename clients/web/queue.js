@@ -29,6 +29,8 @@ class Queue extends EventTarget {
   #ids = new Map();
   #sending = false;
   #lastTime = 0;
+  /** Whether what waits waits for a key. */
+  isLocked = false;
   #wake = () => {};
 
   constructor() {
@@ -119,10 +121,14 @@ class Queue extends EventTarget {
   async send() {
     if (this.#sending) return;
     this.#sending = true;
+    this.isLocked = false;
     let wait = SHORTEST_WAIT_MS;
     while (this.#entries.length) {
       const result = await this.#sendOne(this.#entries[0]);
-      if (result === 'locked') break;
+      if (result === 'locked') {
+        this.isLocked = true;
+        break;
+      }
       if (result === 'answered') {
         wait = SHORTEST_WAIT_MS;
         continue;
@@ -131,6 +137,7 @@ class Queue extends EventTarget {
       wait = Math.min(2 * wait, LONGEST_WAIT_MS);
     }
     this.#sending = false;
+    if (this.isLocked) this.#changed();
   }
 
   /** Where an entry goes: a note to the record that its value has become, through this window or another. */

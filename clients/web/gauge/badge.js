@@ -4,12 +4,14 @@ import { forgetKey, getJson, keyInUse, url, useKey } from '../api.js';
 import { h, refill } from '../dom.js';
 import { explain, t } from '../i18n.js';
 import { queue } from '../queue.js';
-import { forget, readStored, store } from '../stored.js';
+import { readJson, store } from '../stored.js';
 
 const KEY = /^fg_[0-9a-f]{64}$/;
 /** Enough of a key to tell it from others, too little to use it. */
 const SHOWN = 7;
 const KEPT_NAME = 'key-name';
+/** Tells whose the name is that is kept. */
+const SIGN = 16;
 
 export const isBadge = (text) => KEY.test(text);
 
@@ -24,7 +26,6 @@ export class Badge {
   /** From here on everything is done with this key, if it is valid. Values that wait are sent with the one before. */
   async take(key) {
     if (queue.size && keyInUse()) return this.draw(t('badge.waiting', { count: queue.size }));
-    if (key !== keyInUse()) forget(KEPT_NAME, 'session');
     useKey(key);
     this.onIn();
     try {
@@ -38,14 +39,19 @@ export class Badge {
 
   /** The name of the key in use, as a record has it. */
   named(caller) {
-    if (!keyInUse() || !caller || caller === readStored(KEPT_NAME, 'session')) return;
-    store(KEPT_NAME, caller, 'session');
+    const key = keyInUse();
+    if (!key || !caller || caller === this.#nameOf(key)) return;
+    store(KEPT_NAME, JSON.stringify({ [key.slice(0, SIGN)]: caller }), 'session');
     this.draw();
+  }
+
+  #nameOf(key) {
+    return readJson(KEPT_NAME, {}, 'session')[key.slice(0, SIGN)];
   }
 
   draw(problem = '') {
     const key = keyInUse();
-    const name = readStored(KEPT_NAME, 'session');
+    const name = key && this.#nameOf(key);
     this.element.classList.toggle('wrong', problem !== '');
     refill(this.element, problem, key && h('span', name ? t('badge.name', { name, key: key.slice(0, SHOWN) }) : t('badge.in', { key: key.slice(0, SHOWN) })),
       key && h('button.quiet', { type: 'button', onclick: () => this.#out() }, t('badge.out')));
@@ -53,8 +59,6 @@ export class Badge {
 
   #out() {
     if (queue.size) return this.draw(t('badge.waiting', { count: queue.size }));
-    forgetKey();
-    forget(KEPT_NAME, 'session');
-    return this.draw();
+    return forgetKey();
   }
 }

@@ -42,15 +42,15 @@ export class Panel {
    * A value is kept but has no answer yet. Where the page holds its limits it is judged by them at once, on a hatched
    * ground: what is stored has a plain one.
    * @param shown its `verdict` is by the limits held, or null
-   * @param late whether it has waited so long that somebody wonders
+   * @param how it waits, once it has waited so long that somebody wonders
    */
-  waiting(shown, away, late) {
-    if (shown.verdict) return this.#provisional(shown, away, late);
+  waiting(shown, away, how) {
+    if (shown.verdict) return this.#provisional(shown, away, how);
     return this.#show('waiting', [
       verdictShape('waiting'),
       h('div.said', word(t(away ? 'panel.kept' : 'panel.waiting')), about(shown),
         h('p.measured', `${number(shown.measured)} mm`),
-        h('p.distance', t(away ? 'panel.kept_how' : 'panel.waiting_how'))),
+        h('p.distance', away ? t('panel.kept_how') : how)),
     ]);
   }
 
@@ -59,11 +59,11 @@ export class Panel {
   }
 
   /** While the service is away this is all there is to hear; else the sound waits for the record. */
-  #provisional(shown, away, late) {
+  #provisional(shown, away, waits) {
     if (away && this.sounded !== shown) sound(shown.verdict);
     if (away) this.sounded = shown;
     const judged = { ...shown.limits, measured_mm: shown.measured };
-    const how = away ? t('panel.provisional') : late ? t('panel.waiting_how') : distanceText(judged);
+    const how = away ? t('panel.provisional') : waits ?? distanceText(judged);
     this.#show(shown.verdict, [
       verdictShape(shown.verdict),
       h('div.said', word(t(`verdict.${shown.verdict}`)), about(shown), h('p.measured.figure', `${measuredText(judged)} mm`), h('p.distance', how)),

@@ -15,6 +15,7 @@ export default {
   'language': 'Sprache',
   'link.up': 'Verbunden',
   'link.sending': 'Sende {count}',
+  'link.locked': 'Schlüssel fehlt · {count} warten',
   'link.away': 'Dienst nicht erreichbar · {count} warten',
 
   'verdict.good': 'Gut',
@@ -148,6 +149,7 @@ export default {
   'panel.label': 'Prüfentscheid',
   'panel.waiting': 'Wartet',
   'panel.waiting_how': 'Der Dienst speichert den Wert.',
+  'panel.locked_how': 'Nicht gespeichert: Ein Schlüssel fehlt. Der nächste Wert fragt danach.',
   'panel.kept': 'Gemerkt',
   'panel.kept_how': 'Der Dienst ist nicht erreichbar. Der Wert wird gesendet, sobald der Dienst wieder da ist.',
   'panel.refused': 'Nicht gespeichert',

@@ -15,6 +15,7 @@ export default {
   'language': 'Language',
   'link.up': 'Connected',
   'link.sending': 'Sending {count}',
+  'link.locked': 'Key missing · {count} waiting',
   'link.away': 'Service away · {count} waiting',
 
   'verdict.good': 'Good',
@@ -148,6 +149,7 @@ export default {
   'panel.label': 'Verdict',
   'panel.waiting': 'Waiting',
   'panel.waiting_how': 'The service is storing the value.',
+  'panel.locked_how': 'Not stored: a key is missing. The next value asks for it.',
   'panel.kept': 'Kept',
   'panel.kept_how': 'The service cannot be reached. The value is sent as soon as the service is back.',
   'panel.refused': 'Not stored',

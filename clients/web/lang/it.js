@@ -15,6 +15,7 @@ export default {
   'language': 'Lingua',
   'link.up': 'Connesso',
   'link.sending': 'Invio di {count}',
+  'link.locked': 'Manca la chiave · {count} in attesa',
   'link.away': 'Servizio non raggiungibile · {count} in attesa',
 
   'verdict.good': 'Buono',
@@ -148,6 +149,7 @@ export default {
   'panel.label': 'Giudizio',
   'panel.waiting': 'In attesa',
   'panel.waiting_how': 'Il servizio sta salvando il valore.',
+  'panel.locked_how': 'Non salvato: manca una chiave. Il prossimo valore la chiede.',
   'panel.kept': 'Conservato',
   'panel.kept_how': 'Il servizio non è raggiungibile. Il valore sarà inviato appena il servizio torna.',
   'panel.refused': 'Non salvato',

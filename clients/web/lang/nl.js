@@ -15,6 +15,7 @@ export default {
   'language': 'Taal',
   'link.up': 'Verbonden',
   'link.sending': '{count} versturen',
+  'link.locked': 'Sleutel ontbreekt · {count} wachten',
   'link.away': 'Dienst onbereikbaar · {count} wachten',
 
   'verdict.good': 'Goed',
@@ -148,6 +149,7 @@ export default {
   'panel.label': 'Oordeel',
   'panel.waiting': 'Wacht',
   'panel.waiting_how': 'De dienst slaat de waarde op.',
+  'panel.locked_how': 'Niet opgeslagen: er ontbreekt een sleutel. De volgende waarde vraagt erom.',
   'panel.kept': 'Onthouden',
   'panel.kept_how': 'De dienst is onbereikbaar. De waarde wordt verstuurd zodra de dienst terug is.',
   'panel.refused': 'Niet opgeslagen',

@@ -130,9 +130,15 @@ export function mount(main, route) {
   }
 
   /** A value without an answer. While the service is away it may be the last of a part. */
-  function showWaiting(shown, late) {
-    panel.waiting(shown, !connection.up, late);
+  function showWaiting(shown, how) {
+    panel.waiting(shown, !connection.up, how);
     if (!connection.up) sayPart();
+  }
+
+  /** The value that stands in the panel has no answer yet, and somebody wonders why. */
+  function sayWaiting() {
+    const waiting = queue.values.find(({ key }) => key === panel.of);
+    if (waiting) showWaiting(waiting.shown, t(queue.isLocked ? 'panel.locked_how' : 'panel.waiting_how'));
   }
 
   /** What became of a line is seen, also above a number pad on a phone. */
@@ -248,9 +254,7 @@ export function mount(main, route) {
     ledger.taken(key, shown, of);
     recent.add(key);
     show();
-    setTimeout(() => {
-      if (panel.of === key && queue.values.some((waiting) => waiting.key === key)) showWaiting(shown, true);
-    }, GAP_MS);
+    setTimeout(() => { if (panel.of === key) sayWaiting(); }, GAP_MS);
     return key;
   }
 
@@ -293,14 +297,16 @@ export function mount(main, route) {
   function sayUnkept() {
     unkept.textContent = connection.up || (isKept() && queue.isKept) ? '' : t(isKept() ? 'gauge.unstored' : 'gauge.unkept');
   }
-  queue.addEventListener('change', sayUnkept, { signal });
+  queue.addEventListener('change', () => {
+    sayUnkept();
+    if (queue.isLocked) sayWaiting();
+  }, { signal });
   connection.addEventListener('change', () => {
     sayUnkept();
     if (connection.up) partIsOld();
     if (connection.up || !queue.values.length) return;
     for (const waiting of queue.entries) queue.mark(waiting, { late: true });
-    const shown = queue.values.find(({ key }) => key === panel.of);
-    if (shown) showWaiting(shown.shown);
+    sayWaiting();
   }, { signal });
 
   document.addEventListener('keydown', (event) => {
@@ -343,6 +349,7 @@ export function mount(main, route) {
     prepare();
     job.renew();
   });
+  addEventListener('keyforgotten', () => badge.draw(), { signal });
   addEventListener('keyentered', () => {
     badge.draw();
     plan.list();

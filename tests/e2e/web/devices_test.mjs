@@ -11,6 +11,7 @@ import { beforeEach, describe, it } from 'node:test';
 
 import { close, findings, open, openIn, picture } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
+import { eventually } from './support/eventually.mjs';
 import { scan } from './support/scanner.mjs';
 import { begin, browser, daemon, storedSince } from './support/stage.mjs';
 
@@ -43,6 +44,38 @@ describe('a badge', () => {
     assert.equal(await page.$('dialog'), null);
     const text = await page.evaluate(() => [document.body.textContent, ...Object.values(localStorage), ...Object.values(sessionStorage)].join());
     assert.ok(![ada, bob].some((key) => text.includes(key)));
+    await close(page);
+    await locked.cleanup();
+  });
+
+  it('whose key is revoked has nobody logged in: what waits says so, and is sent with the key that is entered anywhere', async () => {
+    const locked = await new Daemon('--auth', 'read-open').start();
+    const [ada, bob] = [await locked.key('ada', 'operator'), await locked.key('bob', 'operator')];
+    const page = await open(browser, locked, '#/gauge/25H7');
+    await page.waitForSelector('.echo .figures');
+    const says = (selector, text) => page.waitForFunction(([where, source]) => new RegExp(source).test(document.querySelector(where)?.textContent), [selector, text]);
+    await scan(page, ada);
+    await scan(page, '25.01');
+    await says('.badge', '^ada · key');
+    locked.command('key', 'revoke', '--name', 'ada');
+    const isRevoked = async () => (await fetch(`${locked.url}/v1/measurements`, { headers: { Authorization: `Bearer ${ada}` } })).status === 401;
+    await eventually(async () => assert.ok(await isRevoked()));
+    await scan(page, '25.011');
+    await page.waitForSelector('dialog');
+    await page.keyboard.press('Escape');
+    await says('.verdict .distance', 'Not stored: a key is missing');
+    await says('#link', 'Key missing · 1 waiting');
+    await says('.badge', '^$');
+    assert.deepEqual(await findings(page), []);
+    await page.evaluate(() => { location.hash = '#/parts'; });
+    await page.fill('dialog input', bob);
+    await page.press('dialog input', 'Enter');
+    await says('#link', 'Connected');
+    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 2);
+    await page.evaluate(() => { location.hash = '#/gauge/25H7'; });
+    await says('.badge', `Key ${bob.slice(0, 7)}… in use`);
+    const { measurements } = await (await fetch(`${locked.url}/v1/measurements`, { headers: { Authorization: `Bearer ${bob}` } })).json();
+    assert.deepEqual(measurements.map((record) => [record.measured_mm, record.caller]), [[25.01, 'ada'], [25.011, 'bob']]);
     await close(page);
     await locked.cleanup();
   });
@@ -140,6 +173,8 @@ describe('a gauge on a serial port', () => {
     for (const line of ['25.013in', '01A-0025.013', '25.013 25.014', 'ERR 91']) {
         await feed(`${line}\r\n`);
       await note(line.startsWith('01A-') ? 'is not a value' : 'does not match the pattern');
+      // The verdict of the value before it stands no more.
+      await page.waitForFunction((text) => document.querySelector('.verdict[data-verdict="open"] .measured')?.textContent === text, line.replace('01A', ''));
     }
     const unfold = () => page.$eval('.more', (more) => { more.open = true; });
     await unfold();
@@ -173,8 +208,6 @@ describe('a value whose beginning nobody saw', () => {
           return reader;
         };
         port.readable = stream;
-      // The verdict of the value before it stands no more.
-      await page.waitForFunction((text) => document.querySelector('.verdict[data-verdict="open"] .measured')?.textContent === text, line.replace('01A', ''));
       };
       const port = { open: async () => begin('25.013\r\n', 400), close: async () => { port.readable = null; } };
       globalThis.feed = (text) => feed.enqueue(new TextEncoder().encode(text));
