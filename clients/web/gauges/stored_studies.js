@@ -5,8 +5,8 @@ import { Asked } from '../asked.js';
 import { connection } from '../connection.js';
 import { readDocument, sayStoredFirst, writeDocument } from '../documents.js';
 import { field, h, refill } from '../dom.js';
-import { gaugeNames } from '../gauge/in_use.js';
-import { date, dayText, explain, t } from '../i18n.js';
+import { dayShown, gaugeNames } from '../gauge/in_use.js';
+import { dayText, explain, t } from '../i18n.js';
 import { inTurn } from '../latest.js';
 
 const COLUMNS = ['study.name', 'field.gauge', 'study.kind', 'study.at'];
@@ -49,7 +49,7 @@ export class StoredStudies {
     const { studies } = await getJson(url(['studies']), { signal: this.leaving });
     refill(this.rows, studies.length ? h('div.scroll.listed', { tabindex: 0, role: 'region', 'aria-label': t('study.stored') }, h('table',
       h('thead', h('tr', COLUMNS.map((name) => h('th', { scope: 'col' }, t(name))))), h('tbody', studies.map(({ name, gauge, kind, at }) => h('tr', h('th', { scope: 'row' },
-        h('button.quiet', { type: 'button', onclick: () => this.#try(() => this.#open(name)) }, name)), h('td', gauge), h('td', t(`study.kind.${kind}`)), h('td', date(new Date(at)))))))) : h('p.aside', t('study.stored_none')));
+        h('button.quiet', { type: 'button', onclick: () => this.#try(() => this.#open(name)) }, name)), h('td', gauge), h('td', t(`study.kind.${kind}`)), h('td', dayShown(at))))))) : h('p.aside', t('study.stored_none')));
   }
 
   /** The form begins another study. */

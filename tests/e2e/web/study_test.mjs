@@ -202,10 +202,13 @@ describe('a gauge', () => {
     assert.deepEqual([await page.inputValue('[name="study-at"]'), await page.inputValue('.of-gauge [name="from"]')], ['2026-04-01', '2026-04-01']);
     assert.match(await page.textContent('.gauges-in-use .listed tbody'), /G-NIGHT31 Mar 2099/); // due on that day, east and west
     await daemon.send('POST', '/v1/gauges-in-use/G-NIGHT/calibrations', { from: '2026-01-31', due: '2099-05-31' });
+    await daemon.send('PUT', '/v1/studies/night', { gauge: 'G-NIGHT', at: '2026-02-28', kind: 'type1', input: { values: [25.001, 25.002, 25.003], reference: 25.002, tolerance: 0.021 } });
     await close(page);
     const west = await open(browser, daemon, '#/gauges/G-NIGHT', { at: '2026-03-31T22:30:00Z', timezoneId: 'America/New_York' });
     await west.waitForSelector('.of-gauge tbody tr');
     assert.match(await west.textContent('.of-gauge tbody'), /31 Jan 202631 May 2099/);
+    await west.waitForSelector('.stored-studies tbody tr');
+    assert.match(await west.textContent('.stored-studies tbody'), /nightG-NIGHT.*28 Feb 2026/);
     await close(west);
   });
 
