@@ -36,7 +36,7 @@ export function mount(main, route) {
   const { options } = route;
   const bar = new FilterBar(options, () => { frozen = null; load(); });
   const values = new HeldValues({
-    bar, characteristic: options.characteristic ?? '', size: options.designation ?? '', count: Number(options.count) || 100,
+    bar, characteristic: options.characteristic ?? '', size: options.designation ?? '', count: Number(options.count) > 0 ? Number(options.count) : 100,
   }, leaving.signal);
   const select = (name, onchange) => h('select', { id: `trend-${name}`, onchange });
   const characteristic = select('characteristic', () => { values.choose(characteristic.value); frozen = null; load(); });
@@ -64,7 +64,7 @@ export function mount(main, route) {
   let told = null;
   let turns = 0;
 
-  count.append(...COUNTS.map((each) => option(each, String(each), each === values.count)));
+  count.append(...[...new Set([...COUNTS, values.count])].sort((one, other) => one - other).map((each) => option(each, String(each), each === values.count)));
   kind.append(...KINDS.map((each) => option(each, t(`trend.kind.${each}`), each === options.kind)));
   const kindField = field(t('trend.kind'), kind);
   kindField.hidden = true;

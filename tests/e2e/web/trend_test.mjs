@@ -197,11 +197,12 @@ describe('the trend', () => {
   it('offers limits of a drawing and what is measured for the first time, and takes back its note when the service is back', async () => {
     const groove = (measured_mm, upper_um) => ({ nominal_mm: 12, feature: 'hole', upper_um, lower_um: 0, measured_mm, characteristic: 'groove' });
     await daemon.send('POST', '/v1/measurements', [groove('12.01', 30), groove('12.02', 30), groove('12.03', 50)]);
-    page = await open(browser, daemon, '#/trend?characteristic=groove');
+    page = await open(browser, daemon, '#/trend?characteristic=groove&count=77');
     const offered = (name) => page.$$eval(`#trend-${name} option`, (all) => all.map(({ value }) => value));
     const points = (count) => untilPoints(page, count);
     await points(1);
     assert.deepEqual(await offered('designation'), ['12 +30/0 µm', '12 +50/0 µm']);
+    assert.equal(await page.inputValue('#trend-count'), '77');
     await page.selectOption('#trend-designation', '12 +30/0 µm');
     await points(2);
     await daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.01', characteristic: 'first-time' });
