@@ -8,13 +8,13 @@ import { isoClass, rowOf, tableRows } from '../tables/catalogue.js';
 const HEIGHT = 160;
 
 export class ClassMap {
-  /** @param onPick takes the name of a class */
-  constructor(feature, names, onPick) {
+  /** @param onPick takes the name of a class; @param onProblem why those of another grade are not shown */
+  constructor(feature, names, { onPick, onProblem }) {
     this.feature = feature;
     this.names = names;
     this.onPick = onPick;
     this.group = freshId(feature);
-    this.grade = h('select', { onchange: () => this.show(this.size, this.chosen, this.grade.value) },
+    this.grade = h('select', { onchange: () => this.show(this.size, this.chosen, this.grade.value).catch(onProblem) },
       [...new Set(names.map((name) => isoClass(name)?.grade).filter(Boolean))].map((grade) => h('option', { value: grade }, `IT${grade}`)));
     this.zones = h('div.class-zones', { role: 'radiogroup', 'aria-label': t(`fit.classes.${feature}`) });
     this.element = h('section.class-map',

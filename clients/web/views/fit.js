@@ -145,10 +145,10 @@ export function mount(main, route) {
 
   const mapping = new Asked(async () => {
     const names = await classNames();
-    classMaps = Object.fromEntries(FEATURES.map((feature) => [feature, new ClassMap(feature, names[feature], (name) => pick({ [feature]: name }))]));
+    classMaps = Object.fromEntries(FEATURES.map((feature) => [feature, new ClassMap(feature, names[feature], { onPick: (name) => pick({ [feature]: name }), onProblem: (problem) => mapping.fail(problem) })]));
     maps.replaceChildren(...FEATURES.map((feature) => classMaps[feature].element));
     if (state.size) await showMaps();
-  }, { say: (text) => { note.textContent ||= text; }, leaving: leaving.signal });
+  }, { say: (text) => { note.textContent = text && (note.textContent || text); }, leaving: leaving.signal });
 
   const resized = new ResizeObserver(() => drawn());
   resized.observe(figure);

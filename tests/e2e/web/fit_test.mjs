@@ -189,6 +189,19 @@ describe('the fit', () => {
     assert.deepEqual(await chosen(), ['H,+21,0', 'g,−7,−20']);
   });
 
+  it('says why it does not offer those of another grade, and offers them once the service answers', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/g6');
+    await page.waitForSelector('.class-map:first-child .class-zones :checked');
+    await page.route('**/v1/tables/hole?*', (route) => route.abort());
+    await page.selectOption('.class-map:first-child select', '6');
+    const noted = (is) => page.waitForFunction((wanted) => (document.querySelector('.fit .note').textContent !== '') === wanted, is);
+    await noted(true);
+    await page.unroute('**/v1/tables/hole?*');
+    await noted(false);
+    await page.selectOption('.class-map:first-child select', '6');
+    await page.waitForFunction(() => document.querySelector('.class-map:first-child [value="H6"]'));
+  });
+
   it('offers every class of the size, also by the arrow keys', async () => {
     page = await open(browser, daemon, '#/fit/25H7/g6');
     await bothMaps();
