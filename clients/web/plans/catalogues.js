@@ -29,18 +29,19 @@ export class Catalogues {
     this.names = h('ul.line');
     this.name = h('input', { type: 'text', name: 'catalogue-name', autocomplete: 'off', spellcheck: 'false', maxlength: 200, oninput: () => this.#drawState() });
     this.lists = Object.fromEntries(Object.keys(LISTS).map((list) => [list, h('ol', { 'aria-label': t(`catalogue.${list}`) })]));
+    this.adding = Object.fromEntries(Object.entries(LISTS).map(([list, one]) => [list, button(`catalogue.add_${one}`, () => this.#add(list, '').focus())]));
     this.state = h('span.aside', { role: 'status' });
     this.deleting = button('plans.delete', () => this.#remove());
     this.form = h('form.sheet', { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#attempt(() => this.#store()); } },
       h('div.line', field(t('catalogue.name'), this.name), this.state, h('p.actions', h('button.primary', { type: 'submit' }, t('catalogue.store')), this.deleting, button('catalogue.close', () => this.#close()))),
       h('div.sides', Object.entries(this.lists).map(([list, element]) => {
         sortable(element, (row) => this.#moved(element, row));
-        return h('section', h('h3', t(`catalogue.${list}`)), element, button(`catalogue.add_${LISTS[list]}`, () => this.#add(list, '').focus()));
+        return h('section', h('h3', t(`catalogue.${list}`)), element, this.adding[list]);
       })));
     this.element = h('section.catalogues', { 'aria-labelledby': 'catalogues-title' }, h('h2', { id: 'catalogues-title' }, t('catalogue.title')), h('p.hint', t('catalogue.how')),
       h('p.actions', this.names, button('catalogue.begin', () => this.#edit())), this.done, this.note, this.form);
-    addEventListener('pagehide', () => this.keepDraft(), { signal: leaving });
     this.listing = new Asked(() => this.#list(), { say: (text) => { this.note.textContent = text; }, leaving });
+    addEventListener('pagehide', () => this.keepDraft(), { signal: leaving });
     this.#show();
   }
 
@@ -154,7 +155,12 @@ export class Catalogues {
   /** An entry; Enter in it goes on to the next, and several lines that are pasted are an entry each. */
   #add(list, text, after = this.lists[list].lastElementChild) {
     const input = h('input', { type: 'text', autocomplete: 'off', maxlength: 200, value: text, oninput: () => { input.removeAttribute('aria-invalid'); say(); this.#drawState(); } });
-    const [grip, remove] = [iconButton('grip', ''), iconButton('remove', '', { onclick: () => { (row.nextElementSibling ?? row.previousElementSibling)?.querySelector('input').focus(); row.remove(); this.#drawState(); } })];
+    const [grip, remove] = [iconButton('grip', ''), iconButton('remove', '', { onclick: () => {
+      const next = (row.nextElementSibling ?? row.previousElementSibling)?.querySelector('input') ?? this.adding[list];
+      row.remove();
+      next.focus();
+      this.#drawState();
+    } })];
     const row = h('li.line', grip, input, remove);
     const say = () => {
       const name = input.value.trim() || t(`note.${LISTS[list]}`);

@@ -23,6 +23,9 @@ describe('catalogues of causes and actions', () => {
     await page.getByRole('button', { name: 'New catalogue' }).click();
     await storeIt();
     await tell('needs a name');
+    await entry('Causes', 1).locator('.remove').click();
+    assert.equal(await page.evaluate(() => document.activeElement.textContent), 'Add a cause');
+    await page.keyboard.press('Enter');
     await page.fill('[name="catalogue-name"]', 'c-turning');
     await entry('Causes', 1).locator('input').fill('Insert worn');
     await entry('Causes', 1).locator('input').press('Enter');
