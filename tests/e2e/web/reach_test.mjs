@@ -216,6 +216,9 @@ describe('the reach of the page', () => {
     await page.goto(`${own.url}/#/plans/${plan}`);
     await page.waitForSelector(READY.plans);
     assert.deepEqual(await wide(), [360]);
+    await page.goto(`${own.url}/#/parts?part_id=${part}`);
+    await page.waitForSelector('.part-verdict');
+    assert.deepEqual(await wide(), [360]);
     await close(page);
     await own.cleanup();
   });
