@@ -92,7 +92,7 @@ class RestingFile {
 /// @param description of a DFX: its DFD; else null.
 /// @returns how many it has stored, 0 if the same bytes were stored before; nothing if the file has
 ///   changed.
-/// @errors StorageBusy, StorageUnavailable, ShuttingDown: try again; any other: the file is wrong.
+/// @errors of status 5xx, and IdempotencyInProgress: try again; any other: the file is wrong.
 Result<std::optional<std::size_t>> take_file(const FolderInOptions& options, const Plant& plant,
                                              std::string_view file_name, const RestingFile& file,
                                              const RestingFile* description);
