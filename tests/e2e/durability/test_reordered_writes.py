@@ -1,7 +1,7 @@
 """A power cut on a disk that writes in another order than it was told: every image that may be left of the data
 folder starts and has every value that was acknowledged. The control, without flushes, loses some.
 
-$TESTS_DEEP draws 400 images of each run, otherwise 12."""
+$TESTS_DEEP draws 150 images of each run, otherwise 12."""
 
 import os
 import pathlib
@@ -15,7 +15,7 @@ from support.daemon import TRACEABLE, Daemon
 from support.disk_images import Record, strace
 from support.writers import compare
 
-IMAGES = 400 if os.environ.get("TESTS_DEEP") else 12
+IMAGES = 150 if os.environ.get("TESTS_DEEP") else 12
 SEED = 20261122
 
 

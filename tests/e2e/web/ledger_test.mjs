@@ -6,7 +6,7 @@ import { describe, it } from 'node:test';
 import { Ledger } from '../../../clients/web/gauge/ledger.js';
 import { Desk } from './support/desk.mjs';
 
-const SEQUENCES = process.env.TESTS_DEEP ? 10000 : 300;
+const SEQUENCES = process.env.TESTS_DEEP ? 4000 : 300;
 const STEPS = 50;
 
 /** Runs one sequence. @throws with its seed and steps where the record and the screen differ */

@@ -1,4 +1,6 @@
-// verify finds a changed value wherever it stands: every column of every table in turn.
+// verify finds a changed value wherever it stands: every column of every table, or a drawn quarter.
+
+#include <random>
 
 #include "db/sql/statement.hpp"
 #include "db/sqlite/connection.hpp"
@@ -190,10 +192,12 @@ TEST_CASE("a changed value is found in every column of every table" *
     return columns_of(connection);
   }();
   REQUIRE(columns.size() > 100);
+  std::mt19937 random(std::random_device{}());
+  const int part = rounds(4, 1);
   const std::string sound = content_of(sample.directory.file());
   for (const Column& column : columns) {
     const std::string name = column.first + "." + column.second;
-    if (kFree.contains(name)) continue;
+    if (kFree.contains(name) || random() % static_cast<unsigned>(part) != 0) continue;
     write_file(sample.directory.file(), sound);
     CAPTURE(name);
     REQUIRE_NOTHROW(

@@ -4,6 +4,7 @@
 #include "db/sqlite/database_file.hpp"
 #include "fixture.hpp"
 #include "support/comes_true.hpp"
+#include "support/deep.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::store;
@@ -151,7 +152,7 @@ TEST_CASE("what is derived from the measurements is derived again") {
   }
 }
 
-TEST_CASE("columns and pairs of fields are derived again") {
+TEST_CASE("columns and pairs of fields are derived again" * doctest::skip(kUnderThreadSanitizer)) {
   VerifyFixture fixture;
   MeasurementRow row = sample_row();
   row.machine = "M7";

@@ -183,7 +183,7 @@ struct Shop : Fixture {
   }
 
   /// @param part one of so many of all combinations, drawn
-  void check(const std::string& state, int part = rounds(20, 5)) {
+  void check(const std::string& state, int part = rounds(60, 8)) {
     CAPTURE(state);
     std::vector<bool> current(sample.rows.size());
     for (std::size_t i = 0; i < current.size(); ++i) {
@@ -246,7 +246,7 @@ TEST_CASE("a summary is what a pass over the rows gives, whatever the index hold
   REQUIRE(shop.count("measurement_pairs WHERE field = 1 OR (by_field = 1 AND field > 0)") == 0);
   REQUIRE(shop.count("measurement_pairs WHERE field = 0 AND by_field = 0") == 1);
   REQUIRE(shop.count("measurement_pairs WHERE by_field = 0") > 4);
-  shop.check("indexed", rounds(4, 1));
+  shop.check("indexed", rounds(16, 1));
 
   shop.correct(20);
   shop.check("some of it stale, or mended meanwhile");

@@ -34,7 +34,7 @@ Vec3 turned_back(const Vec3& angles, Vec3 v) {
   return v;
 }
 
-std::uint64_t tilted_seeds() { return static_cast<std::uint64_t>(rounds(250, 1'000)); }
+std::uint64_t tilted_seeds() { return static_cast<std::uint64_t>(rounds(100, 1'000)); }
 
 /// A preset with a basic rotation in space, a plane in it, shifts before and behind it, and a
 /// machine that can stand square to the plane.
