@@ -14,6 +14,11 @@ export class Decimal {
   constructor(text) {
     this.text = text;
   }
+
+  /** For JSON.stringify: text where a number would lose digits. */
+  toJSON() {
+    return this.text.replace(/\D/g, '').replace(/^0+/, '').length > 15 ? this.text : Number(this.text);
+  }
 }
 
 const MEASURED = /^\+?(?:(\d+)(?:[.,](\d*))?|[.,](\d+))(?:\s*mm)?$/;

@@ -46,7 +46,7 @@ function limitsOf(designation) {
 export const limitsSaid = async (one) => {
   const designation = one.designation ?? (one.tolerance_class && `${one.nominal_mm} ${one.tolerance_class}`);
   if (designation) return limitsOf(designation);
-  const own = one.nominal_mm === undefined ? null : ownLimits(JSON.parse(JSON.stringify(one, (_, value) => (value instanceof Decimal ? value.text : value))));
+  const own = one.nominal_mm === undefined ? null : ownLimits(JSON.parse(JSON.stringify(one)));
   return own ? limitsText(own) : '';
 };
 

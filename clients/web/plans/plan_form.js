@@ -1,7 +1,6 @@
 /** A plan as a form: part number, name, and its characteristics in their order. */
 
 import { freshId, h, refill } from '../dom.js';
-import { toJson } from '../exact.js';
 import { gaugeNames } from '../gauge/in_use.js';
 import { explain, t } from '../i18n.js';
 import { getJson, url } from '../api.js';
@@ -72,7 +71,7 @@ export class PlanForm {
 
   /** What it would store, as one text: to see whether something was changed. */
   get text() {
-    return toJson({ part: this.part.value.trim(), ...this.value });
+    return JSON.stringify({ part: this.part.value.trim(), ...this.value });
   }
 
   /** The field of the first size that somebody has to type; undefined if there is none. */
@@ -121,7 +120,7 @@ export class PlanForm {
 
   /** Of a drawing only the row itself is; its copy is typed. */
   #copy(row) {
-    const { entity, ...one } = JSON.parse(toJson(row.value));
+    const { entity, ...one } = JSON.parse(JSON.stringify(row.value));
     const names = new Set(this.inOrder.map(({ name }) => name));
     const stem = one.name.replace(/ \(\d+\)$/, '');
     let number = 2;
@@ -131,7 +130,7 @@ export class PlanForm {
 
   #remove(row) {
     const before = row.element.previousElementSibling;
-    const one = JSON.parse(toJson(row.value));
+    const one = JSON.parse(JSON.stringify(row.value));
     this.#take(row);
     this.#changed();
     const back = () => {

@@ -1,6 +1,6 @@
 /** A table of characteristics, as CSV or from a workbook: the first row names the columns, in words of the page or of the service. */
 
-import { Decimal, parseSigned, toJson } from '../exact.js';
+import { Decimal, parseSigned } from '../exact.js';
 import { t } from '../i18n.js';
 import { KINDS, limitsTyped, umOfMm } from './sizes.js';
 
@@ -9,15 +9,15 @@ const MEMBERS = ['name', 'designation', 'nominal_mm', 'tolerance_class', 'upper_
   'uncertainty_um', 'coverage_factor', 'subgroup_size', 'frequency', 'reaction', 'catalogue', 'picture', 'envelope', 'inside_corner', 'entity'];
 const NUMBERS = new Set(['nominal_mm', 'upper_um', 'lower_um', 'count', 'uncertainty_um', 'coverage_factor', 'subgroup_size']);
 const WORDS = { true: true, false: false };
-/** Columns that are no members: of the part, and what people have in their place. */
-const OTHERS = ['part', 'size', 'kind', 'upper_mm', 'lower_mm'];
+/** Columns that are no members, with the members that people have them in place of. */
+const OTHERS = { part: [], size: ['designation', 'nominal_mm'], kind: ['feature', 'quantity'], upper_mm: ['upper_um'], lower_mm: ['lower_um'] };
 
 const plain = (text) => text.toLowerCase().replace(/[^\p{L}\p{N}]/gu, '');
 
 /** The column that a heading names: that of the service, or the word of the page for it. */
 function columnOf(heading) {
   const named = plain(heading);
-  return [...MEMBERS, ...OTHERS].find((each) => plain(each) === named)
+  return [...MEMBERS, ...Object.keys(OTHERS)].find((each) => plain(each) === named)
     ?? ['name', 'size', 'kind', 'gauge', ...MEMBERS.slice(8)].find((each) => plain(t(`plans.member.${each}`)) === named);
 }
 
@@ -70,7 +70,7 @@ function characteristicOf(cells) {
   // The service says what is wrong with another word.
   const { feature, ...quantity } = KINDS[kind] ?? { quantity: cells.kind };
   const isClass = size?.designation ?? given('designation') ?? given('tolerance_class');
-  return JSON.parse(toJson({ ...size, ...(isNominal && deviations), ...(!isClass && feature && { feature }), ...quantity, ...Object.fromEntries(own) }));
+  return JSON.parse(JSON.stringify({ ...size, ...(isNominal && deviations), ...(!isClass && feature && { feature }), ...quantity, ...Object.fromEntries(own) }));
 }
 
 /** @returns {part, characteristics, unused}; `problem` says why there are none, with what to say of it */
@@ -78,7 +78,8 @@ export function planOfRows(rows) {
   const heading = headingOf(rows);
   if (!heading) return { problem: 'file.no_names', values: { names: MEMBERS.slice(0, 7).join(', ') } };
   const { at, names } = heading;
-  const twice = rows[at].filter((_, i) => names[i] && names.indexOf(names[i]) !== names.lastIndexOf(names[i]));
+  const isSame = (one, other) => one === other || OTHERS[one]?.includes(other) || OTHERS[other]?.includes(one);
+  const twice = rows[at].filter((_, i) => names[i] && names.some((other, j) => i !== j && isSame(names[i], other)));
   if (twice.length) return { problem: 'file.twice', values: { names: [...new Set(twice)].join(', ') } };
   // A decimal comma between commas moves what follows it into other columns.
   const wide = rows.slice(at + 1).find((row) => row.some((cell, i) => cell && !rows[at][i]));
@@ -95,7 +96,7 @@ const cell = (value = '') => (/[",;\n]/.test(String(value)) ? `"${String(value).
 
 /** A plan as CSV, which planOfRows reads again: numbers with a point, deviations in µm. */
 export function csvOf(plan) {
-  const { characteristics } = JSON.parse(toJson(plan));
+  const { characteristics } = JSON.parse(JSON.stringify(plan));
   const used = MEMBERS.filter((name) => characteristics.some((one) => one[name] !== undefined));
   return [used, ...characteristics.map((one) => used.map((name) => one[name]))].map((row) => `${row.map(cell).join(',')}\r\n`).join('');
 }

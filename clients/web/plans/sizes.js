@@ -38,11 +38,11 @@ export function umOfMm(mm) {
 const um = (mm) => new Decimal(umOfMm(mm));
 const given = (members) => Object.fromEntries(Object.entries(members).filter(([, value]) => value !== undefined));
 
-/** A limit alone, beside its nominal size or without: {nominal_mm, upper_um or lower_um}. */
+/** A limit alone, beside its nominal size or without: {nominal_mm, upper_um or lower_um}; null if it is finer than 1 nm. */
 function oneLimit([, size, sign, text], kind) {
   const limit = parseSigned(text);
   const nominal = size ? parseLength(size) : kind === 'deviation' ? '0' : limit;
-  if (nominal === null || limit === null) return null;
+  if (nominal === null || limit === null || /\.\d{6}\d*[1-9]/.test(limit)) return null;
   const deviation = um(mmText(nmFromMm(limit) - nmFromMm(nominal), 0));
   return { nominal_mm: new Decimal(nominal), ...(/[≤<]/.test(sign) ? { upper_um: deviation } : { lower_um: deviation }) };
 }

@@ -69,10 +69,22 @@ describe('a table', () => {
     assert.deepEqual(await found('T-M'), [{ name: 'bore', designation: '25 H7' }, { name: 'seat', designation: '30 H7' }, { name: 'edge', designation: 'R2 ISO 2768-m', quantity: 'radius' }]);
   });
 
+  it('keeps every digit, and a size that is too fine is refused at its row', async () => {
+    await visit();
+    await dropFile(page, 'fine.csv', 'name;size;kind\nfirst;25.00000000000000001 +0.1/0;hole\nsecond;12 ≥ 11.9000001;distance\n');
+    await says('2 characteristics from fine.csv');
+    await page.fill('[name="part"]', 'T-D');
+    await page.click('.characteristics > li:first-child [aria-label^="Copy"]');
+    await storePlan();
+    await page.waitForFunction(() => [1, 2, 3].every((number) => document.querySelector(`.characteristics > li:nth-child(${number}) .of-size .note`)?.textContent));
+    await daemon.json('/v1/plans').then(({ plans }) => assert.ok(!plans.some(({ part }) => part === 'T-D')));
+  });
+
   it('that has no names, no rows, or is none at all, says so', async () => {
     await visit();
     for (const [name, text, answer] of [['a.csv', 'x;y\n1;2\n', /no column of names/], ['b.csv', 'name;size\n', /no row/], ['c.csv', 'part,name,size\nA,x,25 H7\nB,y,25 H7\n', /several part numbers: A, B/],
       ['f.csv', 'name,upper_um,lower_um,nominal_mm\nbore,21,0,25,5\n', /without a heading in this row: bore · 21 · 0 · 25 · 5/], ['g.csv', 'name;designation;Name\nbore;25 H7;B\n', /a column twice: name, Name/],
+      ['h.csv', 'name;size;designation;kind\nbore;25 H7;30 H7;hole\n', /a column twice: size, designation\./], ['i.csv', 'name;size;upper_um;upper_mm\nbore;25;21;0.03\n', /a column twice: upper_um, upper_mm\./],
       ['d.xlsx', 'PK\x03\x04', /not a workbook/], ['e.stp', 'ISO-10303-21;\nHEADER;', /cannot be read/]]) {
       await dropFile(page, name, text);
       await page.waitForFunction((pattern) => new RegExp(pattern).test(document.querySelector('.drop-zone > .note').textContent), answer.source);
