@@ -227,7 +227,7 @@ void open_log(const std::string& level) {
 }
 
 void log_request(const http::FinishedRequest& finished) {
-  const LogLevel level = finished.status >= 500 ? LogLevel::Error : LogLevel::Info;
+  const LogLevel level = http::is_server_error(finished.status) ? LogLevel::Error : LogLevel::Info;
   write(level, LogQueue::Kind::Request,
         [&](std::string& line) { append_request_line(line, level, finished); });
 }

@@ -5,6 +5,9 @@ namespace fitgauge::http {
 class BodyStream;
 class PreparedResponse;
 
+/// Whether the service has failed, not the request (RFC 9110 section 15.6).
+constexpr bool is_server_error(long status) { return status >= 500; }
+
 struct Header {
   std::string name;
   std::string value;

@@ -15,7 +15,6 @@ using metrology::CompensationState;
 constexpr std::size_t kMostParts = 500;
 constexpr double kNanometresOfUm = 1000;
 constexpr double kMillionths = 1e6;
-constexpr int kFirstOfServer = 500;
 
 /// The newest values of one characteristic, and the parts in the order of making.
 struct CorrectedParts {
@@ -260,7 +259,7 @@ void OffsetOrder::find_news(app::MeasurementService& measurements, const GaugesI
   find_offset(*this, measurements, gauges,
               [of = selected_by(query), done = std::move(done)](const Result<Proposal>& found,
                                                                 const std::string& newest) {
-                if (!found && status_of(found.error().code) >= kFirstOfServer)
+                if (!found && http::is_server_error(status_of(found.error().code)))
                   return done(found.error());
                 OffsetNews news{.event = found ? kOffsetChanged : kOffsetFailed, .newest = newest};
                 news.data = found ? body_json(*found) : body_json(Failure{of, found.error()});

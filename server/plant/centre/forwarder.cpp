@@ -3,6 +3,7 @@
 #include "base/folder.hpp"
 #include "base/gzip.hpp"
 #include "base/json/json_value.hpp"
+#include "http/response.hpp"
 #include "service/log/station_texts.hpp"
 
 namespace fitgauge::forwarder {
@@ -20,7 +21,6 @@ constexpr milliseconds kLongestPause{seconds(30)};
 constexpr long kOk = 200;
 constexpr long kConflict = 409;
 constexpr long kTooLarge = 413;
-constexpr long kFirstOfServer = 500;
 
 std::optional<std::int64_t> size_of(const JsonValue& head) {
   const auto size = read_number<std::int64_t>(head.text_of("size"));
@@ -225,7 +225,7 @@ Forwarder::Sent Forwarder::answered(const http_client::HttpAnswer& answer, std::
     const auto size = head == nullptr ? std::nullopt : size_of(*head);
     if (size) return elsewhere(*size, std::string(head->text_of("root")));
   }
-  return failed(answer.status < kFirstOfServer ? Sent::Refused : Sent::Failed,
+  return failed(http::is_server_error(answer.status) ? Sent::Failed : Sent::Refused,
                 fmt::format("{} {}", answer.status, detail));
 }
 

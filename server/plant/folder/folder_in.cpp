@@ -21,8 +21,7 @@ bool is_description(std::string_view name) { return ascii_lower(name).ends_with(
 
 /// Whether an error is one of the service, not of the file.
 bool is_of_service(const Error& error) {
-  constexpr int kFirstOfServer = 500;
-  return api::status_of(error.code) >= kFirstOfServer ||
+  return http::is_server_error(api::status_of(error.code)) ||
          error.code == ErrorCode::IdempotencyInProgress;
 }
 

@@ -181,7 +181,7 @@ void asset(const Services& services, const http::Request& request, http::Respond
 std::string_view code_of(const Error& error, int status) {
   if (status == 401 || status == 403) return "UNAUTHORIZED";
   if (error.code == ErrorCode::Overloaded) return "TOO_MANY";
-  if (status >= 500) return "INTERNAL_ERROR";
+  if (http::is_server_error(status)) return "INTERNAL_ERROR";
   if (error.where == "path") return "INVALID_PATH";
   if (error.where == "id") return "ASSET_NOT_FOUND";
   for (const std::string_view name : {"at", "from", "count", "interval", "heartbeat"}) {
