@@ -159,6 +159,31 @@ bool matches_glob(std::string_view pattern, std::string_view name) {
   return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
+bool globs_overlap(std::string_view one, std::string_view other) {
+  // Whether their ends from `i` (or `i` + 1) and `j` on have a common name.
+  std::vector<bool> here(other.size() + 1);
+  std::vector<bool> next;
+  for (std::size_t i = one.size() + 1; i-- > 0;) {
+    next = std::exchange(here, std::vector<bool>(other.size() + 1));
+    for (std::size_t j = other.size() + 1; j-- > 0;) {
+      const bool has_one = i < one.size();
+      const bool has_other = j < other.size();
+      if (has_one && one[i] == '*') {
+        here[j] = next[j] || (has_other && here[j + 1]);
+      } else if (has_other && other[j] == '*') {
+        here[j] = here[j + 1] || (has_one && next[j]);
+      } else if (has_one && has_other) {
+        const bool is_equal =
+            one[i] == '?' || other[j] == '?' || ascii_lower(one[i]) == ascii_lower(other[j]);
+        here[j] = is_equal && next[j + 1];
+      } else {
+        here[j] = has_one == has_other;
+      }
+    }
+  }
+  return here[0];
+}
+
 bool is_xml_text(std::string_view text) {
   return std::none_of(text.begin(), text.end(), is_no_character) &&
          std::none_of(std::begin(kNoCharacters), std::end(kNoCharacters),

@@ -91,6 +91,8 @@ inline std::vector<std::string_view> split(std::string_view text, char separator
 
 /// Whether a name is of a pattern with `*` and `?`; letters count in either case.
 bool matches_glob(std::string_view pattern, std::string_view name);
+/// Whether a name can be of both patterns.
+bool globs_overlap(std::string_view one, std::string_view other);
 
 /// Whether XML 1.0 can hold a UTF-8 text: no controls except tab and line ends, no U+FFFE, U+FFFF.
 bool is_xml_text(std::string_view text);

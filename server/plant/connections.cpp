@@ -33,36 +33,10 @@ bool is_same(const JsonValue& a, const JsonValue& b, std::string_view name) {
   return in_a->text == in_b->text;
 }
 
-/// Whether a name can match both patterns with * and ?; letters count in either case.
-bool overlap(std::string_view one, std::string_view other) {
-  // Whether their ends from `i` (or `i` + 1) and `j` on have a common name.
-  std::vector<bool> here(other.size() + 1);
-  std::vector<bool> next;
-  for (std::size_t i = one.size() + 1; i-- > 0;) {
-    next = std::exchange(here, std::vector<bool>(other.size() + 1));
-    for (std::size_t j = other.size() + 1; j-- > 0;) {
-      const bool has_one = i < one.size();
-      const bool has_other = j < other.size();
-      if (has_one && one[i] == '*') {
-        here[j] = next[j] || (has_other && here[j + 1]);
-      } else if (has_other && other[j] == '*') {
-        here[j] = here[j + 1] || (has_one && next[j]);
-      } else if (has_one && has_other) {
-        const bool is_equal =
-            one[i] == '?' || other[j] == '?' || ascii_lower(one[i]) == ascii_lower(other[j]);
-        here[j] = is_equal && next[j + 1];
-      } else {
-        here[j] = has_one == has_other;
-      }
-    }
-  }
-  return here[0];
-}
-
 bool overlap(const std::vector<std::string>& some, const std::vector<std::string>& others) {
   return std::ranges::any_of(some, [&](const std::string& one) {
     return std::ranges::any_of(others,
-                               [&](const std::string& other) { return overlap(one, other); });
+                               [&](const std::string& other) { return globs_overlap(one, other); });
   });
 }
 

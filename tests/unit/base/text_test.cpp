@@ -47,6 +47,24 @@ TEST_CASE("every error code has a stable id of its own and a title") {
   CHECK(ids.size() == count);
 }
 
+TEST_CASE("two patterns overlap if a name is of both, in either order") {
+  struct Pair {
+    std::string_view one, other, common;
+  };
+  for (const Pair& pair : {Pair{"*.CSV", "cmm-*", "cmm-1.csv"},
+                           Pair{"cmm*.csv", "?MM*3.*", "cmm3.csv"}, Pair{"a*b", "*ab", "ab"},
+                           Pair{"*", "", ""}, Pair{"a?", "?b", "AB"}, Pair{"*a*", "b*b", "bab"}}) {
+    CAPTURE(pair.one);
+    CHECK((matches_glob(pair.one, pair.common) && matches_glob(pair.other, pair.common)));
+    CHECK((globs_overlap(pair.one, pair.other) && globs_overlap(pair.other, pair.one)));
+  }
+  for (const Pair& pair : {Pair{"cmm*.csv", "?nn*3.*", ""}, Pair{"a?", "a", ""}, Pair{"*?", "", ""},
+                           Pair{"a*", "b*", ""}, Pair{"x.csv", "caq-*", ""}}) {
+    CAPTURE(pair.one);
+    CHECK_FALSE((globs_overlap(pair.one, pair.other) || globs_overlap(pair.other, pair.one)));
+  }
+}
+
 TEST_CASE("reading a failed result is a bug and says which") {
   const Result<int> failed = Error{ErrorCode::ClassUnknown, "no class I7"};
   CHECK_THROWS_WITH(static_cast<void>(failed.value()), "class.unknown: no class I7");
