@@ -6,8 +6,8 @@ import re
 import subprocess
 import unittest
 
-from plant.test_folders import Folders
 from support.cli import FITGAUGE
+from support.folders import Folders
 
 CELLS = ("K0001", "K0002", "K0004", "K0005", "K0006", "K0007", "K0008", "K0010", "K0011", "K0012")
 HEAD = """K0100 2

@@ -8,9 +8,9 @@ import subprocess
 import time
 import unittest
 
-from plant.test_folders import DFQ, Folders
 from support.cli import FITGAUGE
 from support.daemon import SANITIZED
+from support.folders import DFQ, Folders
 
 MEGABYTE = 1_000_000
 SIZE = 31 << 20  # just below what a file may have

@@ -8,8 +8,8 @@ import subprocess
 import unittest
 import xml.etree.ElementTree as tree
 
-from plant.test_folders import Folders
 from support.cli import FITGAUGE
+from support.folders import Folders
 
 SCHEMAS = os.environ.get("QIF_SCHEMAS")
 SAMPLES = os.environ.get("QIF_SAMPLES")  # a folder of documents by others
