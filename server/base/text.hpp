@@ -53,7 +53,7 @@ char32_t take_character(std::string_view& text);
 /// Windows-1252 as UTF-8; its five undefined bytes become the C1 controls of the same number.
 std::string utf8_from_windows1252(std::string_view bytes);
 
-/// Text that may name a file of any program: as it is, or read as Windows-1252 if it is not UTF-8.
+/// Text of any program: as it is, or read as Windows-1252 if it is not UTF-8.
 inline std::string as_utf8(std::string_view text) {
   return is_utf8(text) ? std::string(text) : utf8_from_windows1252(text);
 }

@@ -224,8 +224,8 @@ class HtmlReader {
 }  // namespace
 
 Reading read_html_logs(std::string_view bytes) {
-  const std::string converted = is_utf8(bytes) ? std::string() : utf8_from_windows1252(bytes);
-  return HtmlReader(converted.empty() ? bytes : converted).read();
+  const std::string text = as_utf8(bytes);
+  return HtmlReader(text).read();
 }
 
 }  // namespace fitgauge::log_reader

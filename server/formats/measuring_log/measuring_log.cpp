@@ -340,8 +340,8 @@ std::optional<Length> read_length(std::string_view digits, bool inch) {
 }
 
 Reading read_text_logs(std::string_view bytes) {
-  const std::string converted = is_utf8(bytes) ? std::string() : utf8_from_windows1252(bytes);
-  std::string_view rest = converted.empty() ? bytes : converted;
+  const std::string text = as_utf8(bytes);
+  std::string_view rest = text;
   TextReader reader;
   for (std::size_t number = 1; !rest.empty(); ++number) {
     const bool is_whole = rest.find('\n') != std::string_view::npos;

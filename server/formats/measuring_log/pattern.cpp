@@ -124,8 +124,8 @@ bool Pattern::matches(const Line& pattern, std::string_view line, Fields& fields
 }
 
 PatternReading Pattern::read(std::string_view bytes) const {
-  const std::string converted = is_utf8(bytes) ? std::string() : utf8_from_windows1252(bytes);
-  std::string_view rest = converted.empty() ? bytes : converted;
+  const std::string text = as_utf8(bytes);
+  std::string_view rest = text;
   PatternReading reading;
   PatternResult result{constants_, {}};
   std::size_t at = 0;

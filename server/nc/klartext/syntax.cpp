@@ -99,7 +99,7 @@ std::string_view Program::name() const {
 std::string decode_source(std::string bytes) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (bytes.starts_with(kByteOrderMark)) bytes.erase(0, kByteOrderMark.size());
-  if (!is_utf8(bytes)) bytes = utf8_from_windows1252(bytes);
+  bytes = as_utf8(bytes);
   unify_line_ends(bytes);
   return bytes;
 }
