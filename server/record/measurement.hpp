@@ -157,7 +157,7 @@ struct Measurement : MeasurementFields {
   std::string_view origin;  ///< its origin: the ending of its ids
   // Once it is read from the store:
   std::int64_t row = 0;            ///< its place in this folder
-  std::int64_t first_row = 0;      ///< in lists: of the first value in its chain of corrections
+  std::int64_t first_row = 0;      ///< in lists that show it: of the first of its corrections
   std::int64_t origin_number = 0;  ///< of the folder that has stored it; 0 is this one
   Timestamp measured_at;
   Timestamp received_at;

@@ -54,6 +54,7 @@ struct CorrectedParts {
   /// because the correction before such a value was made.
   app::MeasurementQuery query() const {
     app::MeasurementQuery query = filters;
+    query.shows_first_rows = true;
     if (filters.set_aside == false) {
       query.set_aside.reset();
       query.shows_notes = true;

@@ -79,6 +79,7 @@ void MeasurementService::list(const MeasurementQuery& query, std::int64_t after,
   database_.readers().submit(
       [this, filter = static_cast<const store::MeasurementFilter&>(query), after, limit,
        last = query.last, behind = query.after, shows_notes = query.shows_notes,
+       shows_first_rows = query.shows_first_rows,
        order = query.newest_first ? store::ListOrder::NewestFirst : store::ListOrder::OldestFirst,
        visit = std::move(visit)](const Stores& stores) mutable -> Result<ListPage> {
         if (!filter.as_of_id) filter.as_of_id = stores.measurements.last_id();
@@ -98,7 +99,7 @@ void MeasurementService::list(const MeasurementQuery& query, std::int64_t after,
             filter, after, limit,
             [&](const MeasurementRow& row) {
               Measurement measurement = from_store(row, names);
-              measurement.first_row = first_row_of(stores, row);
+              if (shows_first_rows) measurement.first_row = first_row_of(stores, row);
               measurement.conflict = is_in_conflict(stores, row);
               std::vector<Note> notes;
               if (shows_notes) {

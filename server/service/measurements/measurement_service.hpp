@@ -104,6 +104,7 @@ struct IdempotencyScope {
 struct MeasurementQuery : store::MeasurementFilter {
   bool newest_first = false;
   bool shows_notes = false;
+  bool shows_first_rows = false;
   std::optional<std::size_t> last;  ///< only this number of the newest matches, on one page
   std::optional<RecordName> after;  ///< begins after this record, in place of a cursor
 };
