@@ -26,10 +26,11 @@ struct Decimal {
   std::int64_t max = std::numeric_limits<std::int64_t>::max();
 };
 enum class LengthUnit : std::uint8_t { Millimetre, Micrometre };
-/// A length; a decimal comma is accepted. Refused with the codes of base/length.hpp.
+/// A length; a decimal comma is accepted. Refused with the codes of base/length.hpp, or `too_long`.
 struct LengthIn {
   LengthUnit unit = LengthUnit::Millimetre;
   bool round_to_nearest = false;  ///< measured values: to the nearest nanometre instead of refused
+  ErrorCode too_long = ErrorCode::LengthOutOfRange;
 };
 struct Words {
   std::vector<std::string> words;

@@ -328,7 +328,7 @@ void add_fits_routes(Routes& add) {
       {.summary = "Fits whose clearances lie within bounds",
        .description = "The preferred fits of ISO 286-1 first, then the widest tolerances.",
        .parameters = {{.name = "nominal_mm",
-                       .type = http::LengthIn{},
+                       .type = http::LengthIn{.too_long = ErrorCode::SizeOutOfRange},
                        .required = true,
                        .description = "Nominal size, 0 < D <= 3150"},
                       {.name = "min_clearance_um",

@@ -195,7 +195,7 @@ void add_limits_routes(Routes& add) {
       ResponseCache::of_revision(add.cache, limits_of_query),
       {.summary = "Limits of size of a nominal size and a tolerance class",
        .parameters = {{.name = "nominal_mm",
-                       .type = http::LengthIn{},
+                       .type = http::LengthIn{.too_long = ErrorCode::SizeOutOfRange},
                        .required = true,
                        .description = "Nominal size, 0 < D <= 3150"},
                       {.name = "tolerance_class",

@@ -110,8 +110,9 @@ std::optional<Response> Exchange::dispatch() {
     if (*answer) return *std::move(answer);
   }
   if (const auto error = take_arguments(segments, routes_.tree().plan(route_index))) {
-    const bool is_readable =
-        error->code == ErrorCode::LengthTooFine || error->code == ErrorCode::LengthOutOfRange;
+    const bool is_readable = error->code == ErrorCode::LengthTooFine ||
+                             error->code == ErrorCode::LengthOutOfRange ||
+                             error->code == ErrorCode::SizeOutOfRange;
     return error_response(*error, is_readable ? 422 : 400);
   }
   return check_head();

@@ -65,6 +65,7 @@ struct Reader {
                                                       : parse_length_um(text, syntax);
     if (!length) {
       Error error = std::move(length).error();
+      if (error.code == ErrorCode::LengthOutOfRange) error.code = type.too_long;
       error.message = fmt::format("The {} {}: {}", place().first, parameter.name, error.message);
       error.where = parameter.name;
       return error;

@@ -81,8 +81,9 @@ class Limits(DaemonTest):
         for path in ("limits?nominal_mm=25&tolerance_class=NEU", "gauges/25NEU", "fits/25NEU/g6",
                      "verdicts/25NEU?measured_mm=25"):
             self.assert_problem(self.daemon.get(f"/v1/{path}"), 404, "class.unknown")
-        self.assert_problem(self.daemon.get("/v1/limits?nominal_mm=-1&tolerance_class=H7"), 422,
-                            "size.out_of_range")
+        for size in ("-1", "3150.000001", "10000000000"):
+            for query in ("limits?tolerance_class=H7", "fits?min_clearance_um=5&max_clearance_um=45"):
+                self.assert_problem(self.daemon.get(f"/v1/{query}&nominal_mm={size}"), 422, "size.out_of_range")
         self.assert_problem(self.daemon.get("/v1/limits?nominal_mm=1e1&tolerance_class=H7"), 400, "length.malformed")
         self.assert_problem(self.daemon.get("/v1/limits?nominal_mm=25"), 400, "query.missing")
         self.assert_problem(self.daemon.get("/v1/limits?nominal_mm=25&tolerance_class=H7&x=1"), 400, "query.unknown")
