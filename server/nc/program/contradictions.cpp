@@ -1,6 +1,7 @@
 #include <bitset>
 
 #include "nc/probing/cycles.hpp"
+#include "nc/probing/preset/preset_cycle.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/followed_values.hpp"
@@ -397,16 +398,21 @@ class Contradictions {
                               value(limit), is_tolerance ? "is too large for" : "is far from",
                               nominal, value(nominal)));
     }
+    Arguments arguments(descriptor);
+    const auto report_failure = [&](int a, int b, const probing::CycleResult<void>& checked) {
+      if (checked) return;
+      contradicts(values[a], values[b],
+                  fmt::format("Q{} = {}: the run fails in cycle {}: {}", a, value(a),
+                              descriptor.number, checked.error().text));
+    };
     for (const CycleParameter& parameter : descriptor.parameters) {
       const int number = static_cast<int>(parameter.id);
       if (!values.contains(number)) continue;
-      const auto checked = probing::check_amount(parameter, value(number));
-      if (!checked) {
-        contradicts(values[number], values[number],
-                    fmt::format("Q{} = {}: the run fails in cycle {}: {}", number, value(number),
-                                descriptor.number, checked.error().text));
-      }
+      arguments.set(parameter.id, value(number));
+      report_failure(number, number, probing::check_amount(parameter, value(number)));
     }
+    if (descriptor.errors.contains(1078))
+      report_failure(303, 305, probing::check_transfer(arguments));
     const auto known = [&](int number) {
       return values.contains(number) ? std::optional(value(number)) : std::nullopt;
     };

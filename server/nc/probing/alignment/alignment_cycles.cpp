@@ -131,7 +131,7 @@ CycleResult<void> zero(const CycleContext& context, Axis rotary) {
 CycleResult<void> align_line(const CycleContext& context) {
   const int wanted = context.whole(312);
   if (wanted > 0 && wanted < 4) return nc_error(1019, "Q312 is 0, 4 (A), 5 (B) or 6 (C)");
-  if (context.whole(337) == 1) TRY(check_transfer(context));
+  TRY(check_transfer(context));
   auto motion = TRY(begin_alignment(context));
   const auto edge = TRY(probe_line(context, motion));
   const auto [around, angle] = misalignment(edge, motion.plane());

@@ -100,7 +100,11 @@ void publish_circle(const CycleContext& context, Side side, const ProbedCircle& 
 }
 
 CycleResult<void> check_transfer(const Arguments& arguments) {
-  if (arguments.whole(303) != -1 || arguments.whole(305) == 0) return {};
+  const auto value = [&](int parameter, double unknown) {
+    return arguments.has_number(q(parameter)) ? arguments.number(parameter) : unknown;
+  };
+  const bool transfers = arguments.descriptor().find(q(337)) == nullptr || value(337, 0) == 1;
+  if (!transfers || value(303, 1) != -1 || value(305, 0) == 0) return {};
   return nc_error(1078, "0 is the datum table, 1 the preset table");
 }
 

@@ -15,6 +15,7 @@ struct DatumPoint {
   Vec3 datum{};  ///< the new coordinates of the point, of the named axes
 };
 
+/// Checks the target of a datum, in the run and before it, when some values may be unknown.
 /// @errors 1078 Q303 = -1 with Q305 not 0: the target is not defined.
 CycleResult<void> check_transfer(const Arguments& arguments);
 

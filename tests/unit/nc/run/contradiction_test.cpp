@@ -51,6 +51,9 @@ TEST_CASE("a contradiction is found at its line") {
   const std::string dialog = "warning 2 cycle.dialog_contradicts";
   const std::string order = "warning 2 cycle.order_contradicts";
   const std::string by_q1 = replaced(hole(), "Q275=+12.1", "Q275=+Q1");
+  const std::string datum = "TCH PROBE 417 DATUM IN TS AXIS Q263=0 Q264=0 Q294=-5 Q260=9 Q303=-1 ";
+  const std::string rotary =
+      "TCH PROBE 403 ROT IN ROTARY AXIS Q263=0 Q264=0 Q265=9 Q266=0 Q272=2 Q267=1 Q261=-5 Q260=9 ";
   const std::string drill =
       "CYCL DEF 200 DRILLING ~\n Q200=+2 ;SET-UP CLEARANCE ~\n Q201=-10 ;DEPTH ~\n "
       "Q206=+200 ;FEED RATE FOR PLNGNG ~\n Q202=+5 ;PLUNGING DEPTH\n";
@@ -135,6 +138,13 @@ TEST_CASE("a contradiction is found at its line") {
       {"TCH PROBE 427 MEASURE COORDINATE Q263=0 Q264=0 Q261=-5 Q272=1 Q267=-1 Q260=9", {}},
       {"TCH PROBE 1400 POSITION PROBING Q1100=0 Q1101=0 Q1102=0 Q372=+0 Q260=9", {order}},
       {"TCH PROBE 1400 POSITION PROBING Q1100=0 Q1101=0 Q1102=0 Q372=-3 Q260=9", {}},
+      {datum + "Q305=9", {order}},
+      {datum + "Q305=0", {}},
+      {datum, {}},
+      {"Q1 = 9\n" + datum + "Q305=+Q1", {order}},
+      {replaced(datum, "-1 ", "+1 ") + "Q305=9", {}},
+      {rotary + "Q337=1 Q305=9 Q303=-1", {order}},
+      {rotary + "Q337=0 Q305=9 Q303=-1", {}},
       {replaced(hole(), "Q320=+0", "Q320=-1"), {"error 9 cycle.parameter_invalid"}},
       {replaced(hole(), "Q279=+0", "Q279=+20"), {"warning 14 cycle.order_contradicts"}},
       {replaced(hole(), "Q279=+0", "Q279=+1"), {}},
