@@ -141,7 +141,11 @@ CycleResult<void> align_line(const CycleContext& context) {
   context.host.set_q(150, to_angle(angle), Unit::Angle);
   const bool in_plane = around == motion.plane().probe;
   const double target = in_plane ? context.number(380) : 0;
-  TRY(align_rotary_axis(context, rotary, angle - target));
+  // A line has no direction, so half a turn more is the same target. The turn from the nominal
+  // angle is reduced, and not the one from the measured angle, so that it jumps at neither.
+  const double nominal = edge.axis == 0 ? 90 : 0;
+  const double turn = angle - nominal + std::remainder(nominal - target, 180);
+  TRY(align_rotary_axis(context, rotary, turn));
   return context.whole(337) == 0 ? CycleResult<void>() : zero(context, rotary);
 }
 
@@ -182,7 +186,7 @@ constexpr TouchProbeCycle kCycles[] = {
           "All parameters."),
     cycle(403, "ROT IN ROTARY AXIS", CycleKind::Alignment, k403Parameters, kAngleResults,
           errors::kUnscaled | ErrorSet{1019, 1042, 1043, 1078, 1081, 1085, 1100}, align_line,
-          "All parameters. Q380 counts in the working plane.",
+          "All parameters. Q380 counts in the working plane; half a turn more is the same line.",
           "Rotary axes of a head: they cannot turn the workpiece."),
     cycle(405, "ROT IN C AXIS", CycleKind::Alignment, k405Parameters, kAngleResults,
           errors::kUnscaled | errors::kCircle | ErrorSet{1043, 1100},

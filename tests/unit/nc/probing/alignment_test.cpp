@@ -136,6 +136,21 @@ TEST_CASE("403 turns a rotary axis until the edge stands along the main axis") {
   CHECK(bench.run(403, with(kEdge, {{312, 2.0}})) == 1019);
 }
 
+TEST_CASE("403 takes half a turn more of Q380 for the same line") {
+  const Values across = with(kEdge, values("263=-30 264=10 265=-30 266=60 272=1 267=-1"));
+  for (const auto& [block, nominal] : {std::pair(kEdge, 0.0), std::pair(across, 90.0)}) {
+    for (const double half_turns : {-180.0, 0.0, 180.0}) {
+      for (const double off : {1.0, -1.0}) {
+        CAPTURE(nominal + half_turns);
+        ProbingBench bench(with_table({edge_at(nominal + off)}));
+        CHECK(bench.run(403, with(block, {{380, nominal + half_turns}})) == 0);
+        CHECK(near(bench.host.q[150], nominal + off));
+        CHECK(near(bench.machine.position()[Axis::C], off));
+      }
+    }
+  }
+}
+
 TEST_CASE("403 writes the zero of the axis to the row of Q305, as Q303 says") {
   ProbingBench bench(with_table({edge_at(1.5)}));
   REQUIRE(bench.run(403, with(kEdge, {{337, 1.0}, {305, 5.0}, {303, 1.0}})) == 0);
