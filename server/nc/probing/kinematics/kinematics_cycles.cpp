@@ -173,6 +173,9 @@ constexpr std::array<std::string_view, 4> kModes{"0 = check", "1 = optimise loca
                                                  "2 = optimise locations and directions",
                                                  "3 = optimise zeros, locations and directions"};
 
+constexpr std::string_view kMeasuresNoAxis =
+    "cycle 451 measures no axis: by Q414, Q418 and Q422 each rotary axis of the machine stays at 0";
+
 /// The error of the axis that was measured last.
 Vec3 offset_error(const KinematicsMeasurement& measurement) {
   const auto& errors = measurement.fit.errors;
@@ -185,6 +188,8 @@ CycleResult<void> measure_axes(const CycleContext& context) {
   const PresetAtSphere preset(context.whole(431));
   const auto plans = TRY(plan_positions(context, context.state()));
   TRY(preset.check(context));
+  if (std::ranges::all_of(plans, [](const AxisPlan& plan) { return plan.positions.empty(); }))
+    TRY(context.host.note(kMeasuresNoAxis));
   auto probing = TRY(KinematicsProbing::begin(context));
   TRY(preset.before(context, probing));
 

@@ -410,6 +410,18 @@ TEST_CASE("an axis of mStrobeRotAxPos gets its targets in Q120 to Q122") {
   CHECK(bench.run(451, with(kinematics_block(), measured(Axis::C, -60, 120, 3))) == 1005);
 }
 
+TEST_CASE("451 that measures no axis is noted") {
+  SphereBench bench(trunnion());
+  REQUIRE(bench.run(451, kinematics_block()) == 0);
+  // One position at 0 is the reference alone, and the machine has no B.
+  REQUIRE(bench.run(451, with(with(kinematics_block(), measured(Axis::A, 0, 90, 1)),
+                              measured(Axis::B, -60, 60, 3))) == 0);
+  REQUIRE(bench.host.notes.size() == 2);
+  for (const std::string& note : bench.host.notes) CHECK(note.starts_with("cycle 451 measures no"));
+  REQUIRE(bench.run(451, both_axes(3)) == 0);
+  CHECK(bench.host.notes.size() == 2);
+}
+
 TEST_CASE("FMAX is a feed, and an INCH program gets millimetres") {
   SphereBench bench(with_location_errors());
   bench.host.inch = true;
