@@ -95,15 +95,22 @@ bool ExecutorSteps::refuel(std::int64_t needed) {
   return true;
 }
 
+/// Switches to the active program. @param unit of the program before it
+void ExecutorSteps::enter_program(double unit, std::span<const double> locals) {
+  channel_.parameters.enter(channel_.linked(), locals);
+  load_program();
+  const bool is_known = is_defined(cells_[kFirstQ + 108]);
+  if (is_known && unit != channel_.length_unit()) update_preassigned(channel_);
+}
+
 const Instruction* ExecutorSteps::call_program(std::shared_ptr<const LinkedProgram> program,
                                                std::uint32_t return_to) {
-  QParameters& parameters = channel_.parameters;
-  auto locals = parameters.save_locals(channel_.linked());
+  const double unit = channel_.length_unit();
+  auto locals = channel_.parameters.save_locals(channel_.linked());
   if (auto called = channel_.calls.call_program(std::move(program), {return_to, std::move(locals)});
       !called)
     return fail(called.error());
-  parameters.enter(channel_.linked());
-  load_program();
+  enter_program(unit, {});
   return code_;
 }
 
@@ -184,9 +191,9 @@ const Instruction* ExecutorSteps::end_block(const Instruction* pc) {
 /// @returns the next instruction of the caller, or null at the end of the main program.
 const Instruction* ExecutorSteps::end_program() {
   if (channel_.calls.depth() == depth_) return nullptr;
+  const double unit = channel_.length_unit();
   const CallStack::Caller caller = channel_.calls.return_from_program();
-  channel_.parameters.enter(channel_.linked(), caller.locals);
-  load_program();
+  enter_program(unit, caller.locals);
   return code_ + caller.return_to;
 }
 

@@ -39,6 +39,7 @@ class ExecutorSteps {
   bool refuel(std::int64_t needed);
   // The next instruction; null after an error and at the end of the run.
   const Instruction* evaluate_node(const Instruction* pc);
+  void enter_program(double unit, std::span<const double> locals);
   const Instruction* call_program(std::shared_ptr<const LinkedProgram> program,
                                   std::uint32_t return_to);
   const Instruction* jump_when(const Instruction* pc);

@@ -59,8 +59,8 @@ constexpr bool is_preassigned(std::uint32_t cell) {
   return cell >= kFirstQ + 108 && cell <= kFirstQ + 114 && cell != kFirstQ + 112;
 }
 
-/// Sets them to the values of the active tool, spindle, coolant and unit. Call it after a change of
-/// these.
+/// Sets them to the values of the active tool, spindle and coolant, lengths in the unit of the
+/// active program. Call it after a change of these.
 void update_preassigned(Channel& channel);
 
 /// Q120 to Q122: the rotary positions that PLANE or cycle 19 has computed, in degrees and input

@@ -242,14 +242,12 @@ NcResult<void> note_lathe_value(Channel& channel, const Tool& tool, std::int64_t
 void update_preassigned(Channel& channel) {
   const MachineState& state = channel.state();
   QParameters& q = channel.parameters;
-  const bool is_inch = channel.calls.main_program().is_inch();
-  const double unit = is_inch ? 25.4 : 1.0;
-  q.set_q(108, state.tool_radius() / unit);
+  q.set_q(108, state.tool_radius() / channel.length_unit());
   q.set_q(109, state.tool.axis ? static_cast<double>(index(*state.tool.axis)) : -1);
   q.set_q(110, static_cast<int>(state.modes.spindle));
   q.set_q(111, state.modes.coolant ? 1 : 0);
-  q.set_q(113, is_inch ? 1 : 0);
-  q.set_q(114, state.tool_length() / unit);
+  q.set_q(113, channel.calls.main_program().is_inch() ? 1 : 0);
+  q.set_q(114, state.tool_length() / channel.length_unit());
 }
 
 void set_plane_angles(Channel& channel, const Vec3& rotary) {

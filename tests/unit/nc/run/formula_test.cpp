@@ -122,5 +122,19 @@ TEST_CASE("preassigned parameters have a value when they are read") {
       "Q1=0, Q2=2, Q3=2, Q4=0");
 }
 
+TEST_CASE("the tool in preassigned parameters has the unit of the active program") {
+  Control control;
+  control.add_cutter(12.7);
+  const std::string_view unit_inside = "Q2 = Q108\nQ3 = Q113\nQ4 = Q114";
+  const std::string main = "TOOL CALL 5 Z\nCALL PGM sub.h\nQ1 = Q108\nTOOL CALL DL+0.5";
+  control.program(unit_inside, "sub.h", true);
+  check_completes(control.run(main), "Q1=12.7, Q2=0.5, Q3=0, Q4=3.937008, Q114=100.5");
+  control.program(unit_inside, "sub.h");
+  control.program(main, "main.h", true);
+  check_completes(control.run(), "Q1=0.5, Q2=12.7, Q3=1, Q4=100");
+  control.program("TOOL CALL 5 Z\nQ2 = Q108", "sub.h", true);
+  check_completes(control.run("CALL PGM sub.h\nQ1 = Q108"), "Q1=12.7, Q2=0.5");
+}
+
 }  // namespace
 }  // namespace fitgauge::interpreter
