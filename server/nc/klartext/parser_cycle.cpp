@@ -175,8 +175,8 @@ void parse_loose_letters(BlockReader& in, bool bare_axes) {
     in.add_word({.value = behind == '-' ? -1.0 : 1.0, .letter = Letter::Dr});
     return;
   }
-  const bool part_of_text =
-      behind == '.' || behind == ':' || behind == '_' || static_cast<unsigned char>(behind) >= 0x80;
+  const bool part_of_text = (behind == '.' && !in.at_number()) || behind == ':' || behind == '_' ||
+                            static_cast<unsigned char>(behind) >= 0x80;
   if (!letter || !kLooseWords.contains(*letter) || part_of_text) return;
   if (incremental && !is_axis(*letter)) return;
   Word word{.value = {}, .letter = *letter, .incremental = incremental};

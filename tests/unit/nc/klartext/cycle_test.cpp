@@ -145,6 +145,10 @@ TEST_CASE("Dotted touch probe cycles") {
           {.value = 100.0, .letter = Letter::F},
           {.value = 1.0, .letter = Letter::Mb},
           {.value = 0.0, .letter = Letter::Value}});
+  CHECK(part_words("TCH PROBE 4.3 ABST.5 F,5 MB.1") == W{{.value = 0.5, .letter = Letter::Value},
+                                                         {.value = 0.5, .letter = Letter::F},
+                                                         {.value = 0.1, .letter = Letter::Mb}});
+  CHECK(part_words("CYCL DEF 9.1 V. ZEIT .5") == W{{.value = 0.5, .letter = Letter::Value}});
   CHECK(part_words("TCH PROBE 3.4 ERRORMODE1") == W{{.value = 1.0, .letter = Letter::Value}});
   CHECK(part_words("TCH PROBE 4.2 IX+0 IY+0 IZ-1")[2] ==
         Word{.value = -1.0, .letter = Letter::Z, .incremental = true});
