@@ -268,9 +268,12 @@ std::optional<Refusal> Exchange::negotiate() {
 std::optional<Refusal> Exchange::check_expectation() {
   if (!head_->has_expect || head_->http_1_0) return std::nullopt;
   const std::string expect = head_->find_list("Expect").value_or("");
-  if (!ascii_iequals(expect, "100-continue"))
-    return Refusal{417, ErrorCode::ExpectationFailed, "Expect must be 100-continue"};
-  wants_continue_ = head_->has_body();
+  const auto expectations = list_items(expect);
+  for (const std::string_view expectation : expectations) {
+    if (!ascii_iequals(expectation, "100-continue"))
+      return Refusal{417, ErrorCode::ExpectationFailed, "Expect must be 100-continue"};
+  }
+  wants_continue_ = !expectations.empty() && head_->has_body();
   return std::nullopt;
 }
 
@@ -298,9 +301,11 @@ std::optional<Refusal> Exchange::check_body() {
       return Refusal{415, ErrorCode::MediaTypeUnsupported, "charset of Content-Type must be UTF-8"};
   }
   if (!head_->has_body()) return std::nullopt;
-  const std::string coding = head_->find_list("Content-Encoding").value_or("identity");
+  const std::string encoding = head_->find_list("Content-Encoding").value_or("");
+  const auto codings = list_items(encoding);
+  const std::string_view coding = codings.empty() ? "identity" : codings.front();
   gzip_ = ascii_iequals(coding, "gzip") || ascii_iequals(coding, "x-gzip");
-  if (!gzip_ && !ascii_iequals(coding, "identity"))
+  if (codings.size() > 1 || (!gzip_ && !ascii_iequals(coding, "identity")))
     return Refusal{415, ErrorCode::EncodingUnsupported, "Content-Encoding must be gzip"};
   if (head_->content_length.value_or(0) > rules.limit_of(request_.media_type_))
     return body_too_large();

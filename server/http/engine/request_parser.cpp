@@ -58,6 +58,13 @@ bool has_endless_size(std::string_view lines) {
   return digits > 16 && (rest.starts_with("\r\n") || rest.starts_with(';'));
 }
 
+/// Whether the field at the front of `lines` is a number. The parser refuses such a Content-Length
+/// only if it has more than 64 bits.
+bool is_number(std::string_view lines) {
+  const std::string_view line = lines.substr(0, lines.find("\r\n"));
+  return is_digits(trim(line.substr(line.find(':') + 1)));
+}
+
 const char* describe(const beast::error_code& code) {
   using beast::http::error;
   switch (static_cast<error>(code.value())) {
@@ -130,6 +137,9 @@ RequestParser::Step RequestParser::take_error(const beast::error_code& error,
     return refuse(400, ErrorCode::VersionUnsupported, "HTTP version must be 1.0 or 1.1");
   if (error == beast::http::error::header_limit) return refuse_long_header();
   if (error == beast::http::error::bad_chunk && has_endless_size(pending)) return refuse_body();
+  const bool is_first = !has_content_length_ && !has_transfer_encoding_;
+  if (error == beast::http::error::bad_content_length && is_first && is_number(pending))
+    return refuse_body();
   return refuse(400, ErrorCode::RequestMalformed, describe(error));
 }
 

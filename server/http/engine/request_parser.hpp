@@ -52,7 +52,7 @@ class RequestParser final : private boost::beast::http::basic_parser<true> {
   }
   Step refuse_body() {
     return refuse(413, ErrorCode::BodyTooLarge,
-                  "the chunks announce a larger body than this route accepts");
+                  "the request announces a larger body than this route accepts");
   }
   Step take_error(const boost::beast::error_code& error, std::string_view pending);
   Step need_more(std::string_view pending);

@@ -210,8 +210,14 @@ TEST_CASE("another content coding is 415 and names the one that is read") {
     CHECK(answer.body.starts_with("request.encoding_unsupported"));
     CHECK(answer.field("Accept-Encoding") == "gzip");
   }
-  CHECK(server.ask(post("/json", "application/json", "{}", "Content-Encoding: identity\r\n"))
-            .status == 200);
+  // An empty list names no coding.
+  for (const char* coding : {"identity", "", ",", "identity ,"}) {
+    CAPTURE(coding);
+    CHECK(server
+              .ask(post("/json", "application/json", "{}",
+                        fmt::format("Content-Encoding: {}\r\n", coding)))
+              .body == "{}");
+  }
 }
 
 TEST_CASE("100 (Continue) comes after the checks and before the body") {
@@ -234,6 +240,8 @@ TEST_CASE("100 (Continue) comes after the checks and before the body") {
     CHECK(client.ask(head("text/plain", "100-continue")).status == 415);
     CHECK(client.is_closed_by_server());
   }
+  CHECK(server.ask(head("application/json", "") + "hello").status == 200);
+  CHECK(server.ask(head("application/json", "100-continue, 200-ok")).status == 417);
   const Answer other = server.ask(head("application/json", "200-ok"));
   CHECK(other.status == 417);
   CHECK(other.body.starts_with("request.expectation_failed"));

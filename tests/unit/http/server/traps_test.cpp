@@ -55,12 +55,23 @@ TEST_CASE("Transfer-Encoding together with Content-Length is refused in either o
 }
 
 TEST_CASE("a Content-Length that is not one number is refused") {
-  for (const char* length : {"5, 5", "5,6", "+5", "-1", "0x5", "5 5", "", "18446744073709551616"}) {
+  for (const char* length : {"5, 5", "5,6", "+5", "-1", "0x5", "5 5", ""}) {
     check_refused("POST /p HTTP/1.1\r\nHost: h\r\nContent-Length: " + std::string(length) +
                   "\r\n\r\nhello");
   }
   check_refused(
       "POST /p HTTP/1.1\r\nHost: h\r\nContent-Length: 5\r\nContent-Length: 5\r\n\r\nhello");
+}
+
+TEST_CASE("a Content-Length of more than 64 bits announces too large a body") {
+  const std::string endless = "Content-Length: 18446744073709551616\r\n";
+  for (const std::string& field :
+       {endless, "content-length:\t" + std::string(100, '9') + " \r\n"}) {
+    check_refused("POST /p HTTP/1.1\r\nHost: h\r\n" + field + "\r\nhello", 413,
+                  "request.body_too_large");
+  }
+  check_refused("POST /p HTTP/1.1\r\nHost: h\r\nContent-Length: 5\r\n" + endless + "\r\nhello");
+  check_refused("POST /p HTTP/1.1\r\nHost: h\r\nTransfer-Encoding: chunked\r\n" + endless + "\r\n");
 }
 
 TEST_CASE("a folded field is refused") {
