@@ -66,6 +66,17 @@ bool Request::prefers_gzip() const {
          accepted_codings(header_list("Accept-Encoding").value_or("")).prefers_gzip();
 }
 
+std::string Request::query_without(std::string_view parameter) const {
+  std::string kept;
+  for (std::string_view rest = query_; !rest.empty();) {
+    const std::string_view pair = take_field(rest, '&');
+    std::string name;
+    const bool is_name = append_percent_decoded(name, pair.substr(0, pair.find('=')), true);
+    if (!pair.empty() && !(is_name && name == parameter)) kept.append(pair) += '&';
+  }
+  return kept;
+}
+
 bool Request::is_http_1_0() const { return head_->http_1_0; }
 
 void Request::append_identity(std::string& out) const {

@@ -42,6 +42,8 @@ class Request {
   std::string_view path() const { return path_; }
   /// Returns the text after the `?` as sent; empty if there is none.
   std::string_view query() const { return query_; }
+  /// Returns the query as sent without this parameter; a `&` follows each other one.
+  std::string query_without(std::string_view parameter) const;
 
   /// Returns the value of the first field with this name, case-insensitive.
   std::optional<std::string_view> header(std::string_view name) const;

@@ -13,8 +13,16 @@ using interpreter::ControlPath;
 constexpr std::size_t kBodyLimit = std::size_t{8} << 20;
 
 /// `nc_prog/8255/8255.h` is TNC:\nc_prog\8255\8255.h.
+/// @errors those of ControlPath::parse, which drops blanks around a name: FilePathInvalid
 Result<ControlPath> path_of(const Request& request) {
-  return ControlPath::parse(std::string(app::kDrive) + std::string(*request.text("path")));
+  std::string path(*request.text("path"));
+  std::ranges::replace(path, '/', '\\');
+  if (trim(path) != path || path.find(" \\") != path.npos || path.find("\\ ") != path.npos) {
+    return Error::of(ErrorCode::FilePathInvalid,
+                     "path '{}' must not have a blank at the beginning or the end of a name",
+                     first_characters(path, 80));
+  }
+  return ControlPath::parse(std::string(app::kDrive) + path);
 }
 
 /// Returns the path of this service for a path of the control.

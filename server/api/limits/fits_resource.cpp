@@ -55,8 +55,10 @@ Error of_side(std::string_view side, Error error) {
 Result<app::MeasurementQuery> side_query(const Services& services, const Request& request,
                                          std::string_view side) {
   const std::string prefix = fmt::format("{}_", side);
-  const std::string_view query = request.query();
-  if (!query.starts_with(prefix) && query.find('&' + prefix) == std::string_view::npos) {
+  const bool is_selected =
+      std::ranges::any_of(measurement_filter_parameters(prefix),
+                          [&](const Parameter& filter) { return request.has(filter.name); });
+  if (!is_selected) {
     const std::string wanted = prefix + "characteristic";
     return Error{ErrorCode::QueryInvalid,
                  fmt::format("a clearance needs stored holes and shafts: select the {0}s too, for "

@@ -84,17 +84,8 @@ bool Preconditions::hold(std::optional<std::string_view> etag) const {
 constexpr std::size_t kLongestTags = std::size_t{32} << 10;
 
 std::string next_link(const Request& request, std::string_view cursor) {
-  std::string link(request.path());
-  char separator = '?';
-  std::string_view rest = request.query();
-  while (!rest.empty()) {
-    const std::string_view pair = take_field(rest, '&');
-    if (pair.empty() || pair.starts_with("after=")) continue;
-    link += separator;
-    link += pair;
-    separator = '&';
-  }
-  return fmt::format("<{}{}after={}>; rel=\"next\"", link, separator, cursor);
+  return fmt::format("<{}?{}after={}>; rel=\"next\"", request.path(),
+                     request.query_without("after"), cursor);
 }
 
 std::vector<Parameter> with_preconditions(Parameter path) {

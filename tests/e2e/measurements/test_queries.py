@@ -68,6 +68,11 @@ class Lists(DaemonTest):
         self.assertEqual(self.ids("source=simulation"), [])
         self.assertEqual(self.ids("source=all&part_id=SN-0"), rows[::50])
 
+    def test_a_cursor_with_an_encoded_name_leads_on(self):
+        page = self.daemon.get("/v1/measurements?%61fter=" + self.rows[9] + "&%6cimit=5&")
+        link = re.fullmatch(r'<(.*)>; rel="next"', page.headers["link"])
+        self.assertEqual([m["id"] for m in self.daemon.get(link[1]).json["measurements"]], self.rows[15:20])
+
     def test_newest_first_leads_through_all_pages_the_other_way(self):
         path, seen = "/v1/measurements?sort=newest&limit=60", []
         while path:

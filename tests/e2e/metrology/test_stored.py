@@ -139,6 +139,7 @@ class Stored(DaemonTest):
         self.assertEqual((moved["shaft"]["selection"]["count"], moved["stable"], moved["hole"]["stable"]), (7, False, True))
         for query, status, code, word in [
                 ("?hole_characteristic=fit%20bore", 400, "query.invalid", "shaft_characteristic"),
+                ("?%68ole_characteristic=fit%20bore", 400, "query.invalid", "shaft_characteristic"),
                 ("?hole_characteristic=fit%20pin&shaft_characteristic=fit%20pin", 422, "limits.mixed", "hole"),
                 ("?hole_characteristic=none&shaft_characteristic=fit%20pin", 422, "statistics.too_few", "hole"),
                 ("?characteristic=bore", 400, "query.unknown", "characteristic")]:

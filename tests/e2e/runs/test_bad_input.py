@@ -118,6 +118,14 @@ class BadInput(ControlTest):
         self.assert_problem(self.daemon.get("/v1/files/../../etc/passwd"), 400,
                             "file.path_invalid")
 
+    def test_a_blank_around_a_name_is_not_dropped(self):
+        for path in ("trimmed.h%20", "%20trimmed.h", "trimmed.h%09", "a%20/trimmed.h", "a/%20trimmed.h", "a%5C%20trimmed.h"):
+            for method in ("PUT", "GET"):
+                answer = self.daemon.request(method, f"/v1/files/{path}", b"0" if method == "PUT" else None)
+                self.assert_problem(answer, 400, "file.path_invalid")
+        self.assertEqual(self.daemon.get("/v1/files?prefix=trimmed").json["files"], [])
+        self.assertEqual(self.daemon.request("PUT", "/v1/files/not%20trimmed.h", b"0").status, 201)
+
     def test_program_of_50_megabytes(self):
         connection = self.daemon.connect()
         connection.putrequest("PUT", "/v1/files/huge.h")
