@@ -20,8 +20,9 @@ struct Replaced {
   std::string_view field;
   std::string_view by;
 };
-constexpr std::array<Replaced, 9> kReplaced = {{
+constexpr std::array<Replaced, 10> kReplaced = {{
     {"confirmed", "measured_mm"},  // another value is confirmed anew
+    {"degrees_of_freedom", "uncertainty_um"},
     {"part_expansion_um_per_m_k", "part_material"},
     {"part_material", "part_expansion_um_per_m_k"},
     {"scale_expansion_um_per_m_k", "scale_material"},

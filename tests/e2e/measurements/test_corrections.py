@@ -125,9 +125,11 @@ class Corrections(DaemonTest):
 
         def body(*facts):
             merged = {name: value for each in facts for name, value in each.items()}
-            unused = "coverage_factor" if merged.get("rule") == "conformance" else "probability"
+            dropped = {"coverage_factor" if merged.get("rule") == "conformance" else "probability"}
+            if "uncertainty_um" in facts[-1]:
+                dropped.add("degrees_of_freedom")  # those of the uncertainty before
             return {name: value for name, value in merged.items()
-                    if value is not None and not (name == unused and name not in facts[-1])}
+                    if value is not None and not (name in dropped and name not in facts[-1])}
 
         def facts_of(answer):
             if answer.status != 201:
@@ -147,6 +149,13 @@ class Corrections(DaemonTest):
         self.assertEqual((old["coverage_factor"], old["verdict"]), (2.051251, "good"))
         new = self.corrected(old, measured_mm=25.0175, degrees_of_freedom=2)
         self.assertEqual((new["coverage_factor"], new["verdict"]), (4.526551, "indeterminate"))
+
+    def test_another_uncertainty_has_not_the_degrees_of_freedom_before(self):
+        old = self.store(measured_mm=25.0175, rule="guard_band", uncertainty_um=1, degrees_of_freedom=2)
+        new = self.corrected(old, measured_mm=25.0175, uncertainty_um=1)
+        self.assertEqual((new.get("degrees_of_freedom"), new["coverage_factor"], new["verdict"]), (None, 2, "good"))
+        new = self.corrected(new, measured_mm=25.0175, uncertainty_um=1, degrees_of_freedom=50)
+        self.assertEqual((new["degrees_of_freedom"], new["coverage_factor"]), (50, 2.051251))
 
     def test_a_designation_without_the_envelope_ends_it(self):
         given = {"designation": "25H7(E)", "measured_mm": 25.01, "go_gauge": "fails"}
