@@ -316,7 +316,12 @@ Result<Application::Verification> Application::verify(
       if (!known || known->size == 0) continue;
       if (known->origin != facts.name && !facts.former.contains(known->origin)) continue;
       verification->head +=
-          fmt::format("\n{} covers {} of {} {}", place, known->size, facts.size, facts.leaves);
+          known->size <= static_cast<std::uint64_t>(facts.size)
+              ? fmt::format("\n{} covers {} of {} {}", place, known->size, facts.size, facts.leaves)
+              : fmt::format(
+                    "\n{} covers {} {}, and the database has only {}: it is newer than this "
+                    "copy",
+                    place, known->size, facts.leaves, facts.size);
     }
     for (std::string& finding : check.finish()) {
       verification->findings.push_back(std::move(finding));

@@ -194,6 +194,11 @@ class Folders(Restored):
         wait_for_size(daemon, 3)
         daemon.stop()
         self.restore(daemon, daemon.folder / "signed.db")
+        newer = daemon.data / "fitgauge.checkpoint"
+        verified = daemon.command("verify", "--checkpoint", newer)
+        self.assertEqual(verified.returncode, 1)
+        self.assertIn(f"{newer} covers 3 measurements, and the database has only 2: it is newer than this copy\n",
+                      verified.stdout)
         made = daemon.command("backup", daemon.folder / "older.db")
         self.assertIn("covers 3 measurements, and the database has only 2", made.stdout)
         (daemon.data / "fitgauge.checkpoint").unlink()
