@@ -311,6 +311,8 @@ Result<void> check(const Config& config) {
   if (!config.tls_client_ca.empty() && config.tls_cert.empty())
     return config_error("tls-client-ca needs tls-cert and tls-key");
   TRY(check_database(config));
+  if (!is_utf8(config.certificate_address))
+    return config_error("certificate-address must be UTF-8");
   TRY(certificate::read_letterhead(config.certificate_address, config.certificate_logo));
   return check_forwarding(config);
 }

@@ -1,6 +1,7 @@
 """What a start refuses, --check-config refuses too; the administrator's key of a file."""
 
 import itertools
+import os
 import pathlib
 import shutil
 import subprocess
@@ -54,6 +55,7 @@ class CheckConfig(unittest.TestCase):
             "of 3 characters": ("--admin-key-file", self.file("short-key", "abc\n")),
             "is not a folder": ("--data", self.file("a-file")),
             "a-file": ("--data", self.file("a-file") / "below"),
+            "certificate-address must be UTF-8": ("--certificate-address", os.fsdecode("Öhler".encode("latin-1"))),
             "not-there": ("--port-file", self.folder / "not-there" / "port"),
         }
         for named, flags in refused.items():
