@@ -64,7 +64,7 @@ Result<void> decode_json(std::string_view body, const BatchContext& context,
   batch.rows.clear();
   std::size_t row = 0;
   const auto parsed = parse_json(body, [&](const JsonValue& item) {
-    if (row == kMostRows) return false;
+    if (row == kMostRows || context.stop.stop_requested()) return false;
     reader.begin(row++);
     read_row(item, reader, batch);
     if (!errors.empty()) batch.rows.clear();  // none is stored
@@ -89,7 +89,7 @@ Result<void> decode_ndjson(std::string_view body, const BatchContext& context,
   MeasurementRowReader reader(context, errors);
   std::size_t row = 0;
   std::size_t line = 0;
-  for (std::string_view rest = body; !rest.empty();) {
+  for (std::string_view rest = body; !rest.empty() && !context.stop.stop_requested();) {
     std::string_view text = take_field(rest, '\n');
     ++line;
     if (text.ends_with('\r')) text.remove_suffix(1);
@@ -142,7 +142,7 @@ Result<void> decode_csv(std::string_view body, const BatchContext& context,
     reader.report_unknown(name);
   }
   std::size_t row = 0;
-  for (;; ++row) {
+  for (; !context.stop.stop_requested(); ++row) {
     const auto cells = csv->next();
     if (!cells) return at_row(cells.error(), row, csv->line());
     if (*cells == nullptr) break;
@@ -161,6 +161,19 @@ Result<void> decode_csv(std::string_view body, const BatchContext& context,
   }
   if (row == 0) return no_rows("the file");
   return finish(errors);
+}
+
+Result<void> decode(std::string_view body, std::string_view media_type, const BatchContext& context,
+                    MeasurementBatch& batch) {
+  if (media_type == "text/csv") return decode_csv(body, context, batch);
+  if (media_type == "application/x-ndjson") return decode_ndjson(body, context, batch);
+  FieldErrors errors;
+  if (context.is_exact) return decode_json(body, context, batch);
+  if (read_body_fast(body, context, batch, errors)) return finish(errors);
+  if (batch.has_too_many) return too_many_rows();
+  batch.wants_whole = batch.is_begun;
+  if (batch.wants_whole) return Error{ErrorCode::RequestInvalid, "the body must be read whole"};
+  return decode_json(body, context, batch);
 }
 
 }  // namespace
@@ -194,15 +207,10 @@ void take_full(MeasurementBatch& batch, const BatchContext& context, const Field
 
 Result<void> decode_measurements(std::string_view body, std::string_view media_type,
                                  const BatchContext& context, MeasurementBatch& batch) {
-  if (media_type == "text/csv") return decode_csv(body, context, batch);
-  if (media_type == "application/x-ndjson") return decode_ndjson(body, context, batch);
-  FieldErrors errors;
-  if (context.is_exact) return decode_json(body, context, batch);
-  if (read_body_fast(body, context, batch, errors)) return finish(errors);
-  if (batch.has_too_many) return too_many_rows();
-  batch.wants_whole = batch.is_begun;
-  if (batch.wants_whole) return Error{ErrorCode::RequestInvalid, "the body must be read whole"};
-  return decode_json(body, context, batch);
+  auto decoded = decode(body, media_type, context, batch);
+  if (context.stop.stop_requested())
+    return Error{ErrorCode::ShuttingDown, "the service is shutting down"};
+  return decoded;
 }
 
 }  // namespace fitgauge::api

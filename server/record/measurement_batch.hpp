@@ -77,6 +77,7 @@ struct BatchContext {
   std::function<void(std::vector<app::Measurement>)> take{};
   /// Finds every error with its place, even with `take`.
   bool is_exact = false;
+  std::stop_token stop{};  ///< ends the reading after a row: ShuttingDown
 };
 
 /// Called by every format reader after each row. Passes a full batch to `take`.
@@ -92,7 +93,7 @@ inline constexpr std::size_t kRowsAtATime = 256;
 /// @param body followed by http::Request::kBodyPadding readable bytes; outlives the batch.
 /// @param media_type application/json (one object or an array), application/x-ndjson or text/csv.
 /// @errors JsonMalformed, JsonDuplicateKey, JsonTooDeep, TextEncoding, CsvMalformed; RequestInvalid
-///   with every bad field; any when the batch `wants_whole`.
+///   with every bad field; ShuttingDown after a stop; any when the batch `wants_whole`.
 Result<void> decode_measurements(std::string_view body, std::string_view media_type,
                                  const BatchContext& context, MeasurementBatch& batch);
 

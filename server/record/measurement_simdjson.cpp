@@ -118,6 +118,7 @@ bool read_array(std::string_view body, ondemand::document& document, Measurement
   if (document.get_array().get(array) != simdjson::SUCCESS) return false;
   std::size_t row = 0;
   for (auto element : array) {
+    if (context.stop.stop_requested()) return false;
     ondemand::object object;
     batch.has_too_many = row == kMostRows;
     if (batch.has_too_many || element.get_object().get(object) != simdjson::SUCCESS) return false;

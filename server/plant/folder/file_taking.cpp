@@ -16,6 +16,7 @@ struct FileRows {
   std::string media_type{};
   std::string text{};
   std::vector<std::uint32_t> lines{};  ///< of the file, for each row; empty: they are the same
+  std::stop_token stop{};              ///< ends the reading
 };
 
 constexpr std::size_t kMostAppended = std::size_t{8} << 20;  ///< by one call of append()
@@ -37,6 +38,8 @@ template <class Source>
 Result<void> append_all(Source& source, FileRows& rows) {
   std::size_t count = 0;  // of rows with text, where each call appends one
   for (;;) {
+    if (rows.stop.stop_requested())
+      return Error{ErrorCode::ShuttingDown, "the service is shutting down"};
     const std::size_t before = rows.text.size();
     const auto more = TRY(sheet::append_next(source, rows.text, rows.lines));
     if (!more) return {};
@@ -82,11 +85,12 @@ bool is_dfq(std::string_view file_name) {
 
 /// Reads a table, NDJSON, DFQ or QIF by its name, piece by piece, and keeps only its rows.
 /// @param description of a DFX: its DFD; else null.
-/// @errors BodyTooLarge; those of ShopRows, NdjsonRows, MeasurementCsv and QifRows
+/// @errors BodyTooLarge; ShuttingDown; those of ShopRows, NdjsonRows, MeasurementCsv and QifRows
 Result<FileRows> read_file_rows(const aqdef::MeasurementOptions& options,
                                 std::string_view file_name, const RestingFile& file,
-                                const RestingFile* description) {
-  FileRows rows{.media_type = sheet::is_ndjson(file_name) ? "application/x-ndjson" : "text/csv"};
+                                const RestingFile* description, const std::stop_token& stop) {
+  FileRows rows{.media_type = sheet::is_ndjson(file_name) ? "application/x-ndjson" : "text/csv",
+                .stop = stop};
   // Reserved room that is not used needs no memory; a text that grows exists twice for a moment.
   rows.text.reserve(FileRows::kMostBytes + kMostAppended + http::Request::kBodyPadding);
   if (is_dfq(file_name)) {
@@ -140,7 +144,8 @@ class CountedRows final : public app::Rendering {
 
 Result<std::optional<std::size_t>> take_file(const FolderInOptions& options, const Plant& plant,
                                              std::string_view file_name, const RestingFile& file,
-                                             const RestingFile* description) {
+                                             const RestingFile* description,
+                                             const std::stop_token& stop) {
   const auto tables = TRY(plant.tables.tables());
   Sha256 digest;
   if (description != nullptr) TRY(description->add_to(digest));
@@ -148,7 +153,7 @@ Result<std::optional<std::size_t>> take_file(const FolderInOptions& options, con
   const std::string key = to_hex(digest.finish());
   aqdef::MeasurementOptions reading = options.csv;
   reading.limits_of = limits_by(*tables);
-  const auto rows = read_file_rows(reading, file_name, file, description);
+  const auto rows = read_file_rows(reading, file_name, file, description, stop);
   const bool is_unchanged =
       file.is_unchanged() && (description == nullptr || description->is_unchanged());
   if (!is_unchanged) return std::optional<std::size_t>();
@@ -164,7 +169,8 @@ Result<std::optional<std::size_t>> take_file(const FolderInOptions& options, con
   api::BatchContext context{.tables = *tables,
                             .received_at = plant.clock.now(),
                             .caller = options.name,
-                            .gauges = gauges.get()};
+                            .gauges = gauges.get(),
+                            .stop = stop};
   // Judges all rows before it stores the first: a faulty file must not reach the writer.
   context.take = [](std::vector<app::Measurement>) {};
   const auto judged = api::decode_measurements(rows->text, rows->media_type, context, batch);

@@ -118,12 +118,13 @@ class FolderIn final : public Worker {
       if (stop.stop_requested()) break;
       if (is_description(name)) continue;  // read together with its DFX
       begin_attempt();
-      if (auto why = take(*folder, name, seen_[name]); why && !first) first = std::move(why);
+      if (auto why = take(*folder, name, seen_[name], stop); why && !first) first = std::move(why);
     }
     return first;
   }
 
-  std::optional<std::string> take(const Folder& folder, const std::string& name, Seen& seen) {
+  std::optional<std::string> take(const Folder& folder, const std::string& name, Seen& seen,
+                                  const std::stop_token& stop) {
     std::vector<std::string> names = {name};
     if (is_values_alone(name)) {
       const auto description = description_of(name, seen);
@@ -149,7 +150,7 @@ class FolderIn final : public Worker {
       files.emplace_back(one, **std::move(file), look);
     }
     const auto taken =
-        take_file(options_, plant_, name, files[0], files.size() > 1 ? &files[1] : nullptr);
+        take_file(options_, plant_, name, files[0], files.size() > 1 ? &files[1] : nullptr, stop);
     if (!taken) {
       if (is_of_service(taken.error())) return taken.error().message;
       return fail(folder, names, taken.error());

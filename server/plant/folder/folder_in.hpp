@@ -90,12 +90,15 @@ class RestingFile {
 /// Stores the measurements of a file, all rows or none. The same bytes are stored once for a
 /// connection: the transaction of the rows stores their digest for ever. Blocks.
 /// @param description of a DFX: its DFD; else null.
+/// @param stop ends it between two rows: nothing of the file is stored.
 /// @returns how many it has stored, 0 if the same bytes were stored before; nothing if the file has
 ///   changed.
-/// @errors of status 5xx, and IdempotencyInProgress: try again; any other: the file is wrong.
+/// @errors of status 5xx (ShuttingDown after a stop) and IdempotencyInProgress: try again; any
+///   other: the file is wrong.
 Result<std::optional<std::size_t>> take_file(const FolderInOptions& options, const Plant& plant,
                                              std::string_view file_name, const RestingFile& file,
-                                             const RestingFile* description);
+                                             const RestingFile* description,
+                                             const std::stop_token& stop);
 
 /// Returns the errors of a file as a text for the person who wrote it: lines and remedies.
 std::string told(std::string_view file_name, const Error& error);

@@ -234,6 +234,32 @@ Pieces in_pieces(std::string& body, std::string_view type) {
 
 }  // namespace
 
+TEST_CASE("a stop ends the reading of a long list after the piece that is taken, in every format") {
+  for (const std::string_view type : {"application/json", "application/x-ndjson", "text/csv"}) {
+    for (const bool is_exact : {false, true}) {
+      CAPTURE(type);
+      CAPTURE(is_exact);
+      std::string body = list_of(1000, type, -1);
+      const std::size_t size = body.size();
+      body.append(64, '\0');
+      std::stop_source stop;
+      BatchContext context = now();
+      context.is_exact = is_exact;
+      context.stop = stop.get_token();
+      int taken = 0;
+      context.take = [&](const std::vector<app::Measurement>&) {
+        if (++taken == 2) stop.request_stop();
+      };
+      MeasurementBatch batch;
+      const auto text = std::string_view(body).substr(0, size);
+      CHECK(decode_measurements(text, type, context, batch).error().code ==
+            ErrorCode::ShuttingDown);
+      CHECK(taken == 2);
+      CHECK(batch.rows.empty());
+    }
+  }
+}
+
 TEST_CASE("a long list is taken away in pieces while it is read, in every format") {
   constexpr int kCount = 1000;
   for (const std::string_view type : {"application/json", "application/x-ndjson", "text/csv"}) {
