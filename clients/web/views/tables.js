@@ -44,27 +44,33 @@ export function mount(main, route) {
 
   /** Numbers in the search are sizes, the rest are classes or letters that classes begin with. */
   function understand() {
-    const words = find.value.split(/[\s;]+/).filter(Boolean).flatMap(parted);
+    const words = find.value.replace(/[Øø⌀∅]/g, ' ').split(/[\s;/]+|,(?!\d)/).flatMap(parted).filter((word) => word && word !== 'mm');
     const sizes = words.map(parseMeasured).filter((text) => text !== null).map(nmFromMm);
     const wanted = words.filter((word) => parseMeasured(word) === null);
-    const classes = wanted.flatMap((word) => {
+    const named = (word, where) => {
       // Upper case is a hole, lower case a shaft: g6 and G7 have nothing in common.
-      const exact = names[feature].filter((name) => name === word);
-      return exact.length ? exact : names[feature].filter((name) => isoClass(name)?.letters === word);
-    });
+      const exact = names[where].filter((name) => name === word);
+      return exact.length ? exact : names[where].filter((name) => isoClass(name)?.letters === word);
+    };
     const usual = USUAL[feature].filter((name) => names[feature].includes(name));
-    const other = FEATURES.find((each) => each !== feature);
-    const elsewhere = wanted.find((word) => names[other].some((name) => name === word || isoClass(name)?.letters === word));
-    return { sizes, elsewhere, classes: wanted.length ? [...new Set(classes)].slice(0, MOST_CLASSES) : usual };
+    const classes = wanted.length ? [...new Set(wanted.flatMap((word) => named(word, feature)))] : usual;
+    return { sizes, classes, refusal: refusal(wanted, classes, (word) => FEATURES.some((each) => named(word, each).length)) };
+  }
+
+  /** Why there is no table. A class of the other table waits for its turn where a fit is searched. */
+  function refusal(wanted, classes, isKnown) {
+    const unknown = wanted.find((word) => !isKnown(word));
+    if (unknown) return t('tables.none', { name: unknown });
+    if (!classes.length) return t(`tables.elsewhere.${feature}`, { name: wanted[0] });
+    return classes.length > MOST_CLASSES && t('tables.too_many', { count: classes.length, most: MOST_CLASSES });
   }
 
   async function refresh() {
     const wanted = understand();
     shown = wanted;
+    if (wanted.refusal) wanted.classes = [];
     go({ view: 'tables', path: [feature], options: { find: find.value.trim() } }, { refine: true });
-    if (!wanted.classes.length) {
-      return nothing(wanted.elsewhere ? t(`tables.elsewhere.${feature}`, { name: wanted.elsewhere }) : t('tables.none'));
-    }
+    if (wanted.refusal) return nothing(wanted.refusal);
     const { rows } = await tableRows(feature, wanted.classes);
     if (shown !== wanted) return null;
     note.textContent = copied;
@@ -76,6 +82,7 @@ export function mount(main, route) {
   const holds = (row, sizes) => !sizes.length || sizes.some((size) => nmFromMm(row.over_mm) < size && size <= nmFromMm(row.up_to_mm));
 
   async function copy() {
+    if (!shown.classes.length) return;
     try {
       const csv = await (await get(url(['tables', feature], { classes: shown.classes.join(','), format: 'csv' }))).text();
       const [head, ...rows] = csv.trim().split(/\r?\n/);
@@ -134,5 +141,5 @@ function grid(rows, classes, own) {
 /** 25H7 as a size and a class. */
 function parted(word) {
   const parsed = parseDesignation(word);
-  return parsed ? [word.slice(0, -parsed.tolerance_class.length).replace(/^[Øø⌀∅]|\/$/g, ''), parsed.tolerance_class] : [word];
+  return parsed ? [parsed.text.slice(0, -parsed.tolerance_class.length), parsed.tolerance_class] : [word];
 }

@@ -237,6 +237,23 @@ describe('the tables', () => {
     await page.waitForFunction(() => !document.querySelector('.grid'));
   });
 
+  it('name the word that is no class, and too many classes', async () => {
+    page = await open(browser, daemon, '#/tables/hole?find=25+H7');
+    const note = () => page.textContent('.tables .note');
+    await page.waitForSelector('.grid td');
+    for (const [search, said] of [['25 H7 Q9', 'This table does not have Q9.'], ['25 H JS', '40 classes are too many. Name at most 24.'],
+      ['M10-6H', 'This table does not have M10-6H.']]) {
+      await page.fill('#find', search);
+      await page.waitForFunction(() => !document.querySelector('.grid'));
+      assert.equal(await note(), said);
+      // A size, its sign and unit, both sides of a fit, and a list with commas.
+      await page.fill('#find', 'Ø 25 mm H7, JS7; K7/g6 132,5/P9');
+      await page.waitForSelector('.grid td');
+      assert.equal(await note(), '');
+      assert.deepEqual(await page.$$eval('.grid thead th', (heads) => heads.slice(2).map((head) => head.textContent)), ['H7', 'JS7', 'K7', 'P9']);
+    }
+  });
+
   for (const [address, where, table, copy] of [
     ['#/tables/hole?find=25+H7', /\/v1\/tables\/hole\?classes=H7$/, '.grid', 'text=Copy as CSV'],
     ['#/fit/25H7/g6', '**/v1/fits/25H7/g6', '.limits', '.limits button[aria-label="Copy 25 H7 for a drawing"]'],
