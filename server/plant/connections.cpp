@@ -46,6 +46,19 @@ bool is_same_folder(const std::filesystem::path& one, const std::filesystem::pat
          std::filesystem::weakly_canonical(other, failure);
 }
 
+/// Shows why a connection was not started.
+class NotStarted final : public Worker {
+ public:
+  NotStarted(const Definition& definition, const Plant& plant) : Worker(definition.name, plant) {
+    change([&](ConnectionState& state) {
+      state.is_outgoing = std::ranges::find(kinds(), definition.kind, &Kind::name)->is_outgoing;
+      state.is_failing = true;
+      state.last_error = definition.fault;
+    });
+  }
+  void request_stop() override {}
+};
+
 constexpr std::size_t kMostWaiting = 64;
 constexpr std::size_t kTestsAtOnce = 8;
 
@@ -146,14 +159,22 @@ Result<std::unique_ptr<Connections>> Connections::start(std::vector<Definition> 
   }
   if (!stored) return all;  // the readiness shows the damage
   for (const app::NamedDocument& document : *stored) {
-    const auto not_started = [&](std::string_view why) {
+    const auto body = parse_stored_json(document.text, "a connection");
+    const auto not_started = [&](const std::string& why) {
       all->plant_.tell("connection_not_started", fmt::format("{}: {}", document.name, why));
+      const std::string kind(body ? body->text_of("kind") : "");
+      const bool is_known = std::ranges::find(kinds(), kind, &Kind::name) != kinds().end();
+      if (!is_known || all->find(document.name)) return;
+      all->begin({.name = document.name,
+                  .kind = kind,
+                  .text = document.text,
+                  .shown = api::json_text(app::without_secrets(*body)),
+                  .fault = why});
     };
     if (all->find(document.name)) {
       not_started("the configuration file has a connection of that name: choose another name");
       continue;
     }
-    const auto body = parse_stored_json(document.text, "a connection");
     auto definition =
         body ? read_definition(document.name, *body, {.roots = all->plant_.folders}) : body.error();
     if (!definition) {
@@ -177,7 +198,8 @@ Connections::~Connections() {
 
 void Connections::begin(Definition definition) {
   const std::string key = ascii_lower(definition.name);
-  auto worker = definition.settings.start(plant_);
+  auto worker = definition.fault.empty() ? definition.settings.start(plant_)
+                                         : std::make_unique<NotStarted>(definition, plant_);
   const std::lock_guard lock(mutex_);
   entries_.insert_or_assign(key, Entry{std::move(definition), std::move(worker)});
 }
@@ -256,7 +278,7 @@ Result<bool> Connections::put(const std::string& name, std::string_view body,
   TRY(check_name(name));
   auto before = find(name);
   if (before && before->is_read_only) return read_only(before->name);
-  // A stored connection that could not be started keeps its position and its secrets, too.
+  // A stored connection that is not shown keeps its position and its secrets, too.
   if (!before) before = TRY(find_stored(name));
   if (before && before->name != name) {
     return Error{ErrorCode::PathMalformed,
@@ -302,6 +324,7 @@ Result<void> Connections::remove(const std::string& name,
 
 Result<void> Connections::replay(const std::string& name, std::string_view body) {
   const auto found = TRY(named(name));
+  if (!found.fault.empty()) return Error{ErrorCode::RequestInvalid, found.fault};
   const auto json = TRY(parse_json(body));
   const auto order = TRY(api::read_whole<ReplayOrder>(json));
   const auto& follower = found.settings.follower;
@@ -322,6 +345,7 @@ Result<void> Connections::replay(const std::string& name, std::string_view body)
 
 Result<ConnectionTest> Connections::test(const std::string& name) {
   const auto found = TRY(named(name));
+  if (!found.fault.empty()) return ConnectionTest{false, found.fault};
   {
     std::unique_lock lock(mutex_);  // a broker sends the first of two with one name away
     tested_.wait(lock, [&] { return under_test_.insert(name).second; });

@@ -14,6 +14,7 @@ struct Definition {
   std::string shown{};  ///< text without its secrets
   Settings settings{};
   bool is_read_only = false;  ///< belongs to the configuration file
+  std::string fault{};        ///< why it was not started; empty: it runs
 };
 
 /// Letters, digits, - and _, 1 to 63 of them. @errors PathMalformed
@@ -39,13 +40,13 @@ std::optional<std::string> fault_of_both(const Definition& one, const Definition
 /// The most connections there may be.
 inline constexpr std::size_t kMostConnections = 100;
 
-/// All running connections, from the configuration file and from the storage. Changes run in turn
+/// All connections, from the configuration file and from the storage. Changes run in turn
 /// on a separate thread; tests run beside them, those of one connection in turn. Thread-safe.
 class Connections {
  public:
-  /// Starts the connections of `configured` and of the storage. A stored connection that is
-  /// unreadable, has a name of the file, or must not run together with another one, is logged and
-  /// not started.
+  /// Starts the connections of `configured` and of the storage. A stored connection that cannot be
+  /// read, or must not run together with another one, is logged and shown as failing; one that has
+  /// a name of the file or an unknown kind is only logged.
   /// @errors those of the storage.
   static Result<std::unique_ptr<Connections>> start(std::vector<Definition> configured,
                                                     Plant plant);

@@ -48,6 +48,7 @@ struct Settings {
 /// A kind of connection: its settings, work and test are in its folder, its name is in kinds.inc.
 struct Kind {
   std::string_view name;
+  bool is_outgoing;
   api::schema::Fields (*fields)();
   /// @param body reports every bad field to its errors.
   Settings (*read)(ReadSettings& body, const std::string& name);
@@ -91,7 +92,7 @@ Kind kind_of(std::string_view kind) {
     };
     return settings;
   };
-  return {kind, fields, read};
+  return {kind, kFollows, fields, read};
 }
 
 }  // namespace fitgauge::connections

@@ -47,12 +47,12 @@ struct ConnectionState {
 };
 
 /// Nanoseconds since the last progress; none before the first success. Outgoing: age of the next
-/// measurement to send; incoming: time since the last success.
+/// measurement to send, none if it was not started; incoming: time since the last success.
 inline std::optional<std::int64_t> lag(const ConnectionState& state, Timestamp now) {
   const auto since = [&](Timestamp then) {
     return std::max<std::int64_t>(now.nanoseconds - then.nanoseconds, 0);
   };
-  if (!state.is_outgoing) {
+  if (!state.is_outgoing || (state.is_failing && !state.position)) {
     return state.last_success_at ? std::optional(since(*state.last_success_at)) : std::nullopt;
   }
   return state.waits_since ? since(*state.waits_since) : 0;

@@ -142,6 +142,14 @@ class Configured(unittest.TestCase):
         daemon.flags = ["--connection-folders", str(new)]
         daemon.start()
         daemon.wait_for_log('"event":"connection_not_started"')
+        shown, = daemon.get("/v1/connections").json["connections"]
+        self.assertEqual((shown["name"], shown["kind"], shown["direction"], shown["state"], shown["folder"], shown["lag_s"]),
+                         ("caq", "folder_out", "out", "failing", str(old), None))
+        self.assertIn("connection_folders", shown["last_error"])
+        tested = daemon.post("/v1/connections/caq/test", None).json
+        self.assertEqual((tested["ok"], tested["detail"]), (False, shown["last_error"]))
+        self.assertEqual(daemon.post("/v1/connections/caq/replay", {"from": "2026-11-20T00:00:00Z"}).status, 422)
+        self.assertIn('fitgauge_connection_up{connection="caq"} 0', daemon.get("/metrics").text)
         store("between")
         self.assertEqual(put("CAQ", new).json["code"], "path.malformed")
         self.assertEqual(put("caq", new).status, 200)
