@@ -4,6 +4,7 @@ service recovers by itself."""
 import concurrent.futures
 import contextlib
 import http.client
+import json
 import os
 import pathlib
 import re
@@ -97,28 +98,6 @@ class FullDisk(FaultTest):
         health = [line for line in daemon.log.splitlines() if '"storage_health"' in line]
         self.assertEqual([" ".join(word for word in ("error", "info", "full", "SQLite code", "ok") if word in line)
                           for line in health], ["error full SQLite code", "info ok"], health)
-
-    def test_a_folder_out_waits_until_its_next_file_can_be_planned(self):
-        root = pathlib.Path(tempfile.mkdtemp(prefix="fitgauge-out-"))
-        self.addCleanup(shutil.rmtree, root, ignore_errors=True)
-        daemon = self.make_daemon("--connection-folders", root, data=self.folder / "data")
-        daemon.start()
-        self.assertEqual(daemon.measure([PART] * 300).status, 201)
-        connected = daemon.request("PUT", "/v1/connections/caq", {
-            "kind": "folder_out", "folder": str(root / "out"), "every_s": 1, "start": "beginning", "longest_wait_s": 1})
-        self.assertEqual(connected.status, 201, connected)
-
-        def state():
-            return daemon.get("/v1/connections/caq").json
-
-        daemon.connection_in("caq", "failing")  # its first file is planned, and its folder is away
-        ballast = self.fill()
-        (root / "out").mkdir()
-        failing = wait_for(lambda: "full" in (seen := state())["last_error"] and seen, state)
-        self.assertEqual((failing["state"], failing["position"], failing["behind"]), ("failing", 256, 44))
-        ballast.unlink()
-        wait_for(lambda: state()["position"] == 300, state)
-        self.assertEqual(len(list((root / "out").iterdir())), 2)
 
     def test_a_drawing_for_which_the_disk_has_no_room_is_refused_and_leaves_nothing(self):
         daemon = self.make_daemon(data=self.folder / "data").start()
@@ -252,6 +231,37 @@ class Removed(FaultTest):
                     self.assertNotIn("log_branched", daemon.log)
                     self.assertEqual(daemon.stop(), 0)
                     self.assertEqual(daemon.command("verify").returncode, 0)
+
+    def test_a_folder_out_waits_until_its_next_file_can_be_planned(self):
+        """Without its lock it stores nothing at all; a full disk may have room for one more commit."""
+        root = pathlib.Path(tempfile.mkdtemp(prefix="fitgauge-out-"))
+        self.addCleanup(shutil.rmtree, root, ignore_errors=True)
+        daemon = self.make_daemon("--connection-folders", root).start()
+        self.assertEqual(daemon.measure([PART] * 300).status, 201)
+        connected = daemon.request("PUT", "/v1/connections/caq", {
+            "kind": "folder_out", "folder": str(root / "out"), "every_s": 1, "start": "beginning", "longest_wait_s": 1,
+            "format": "ndjson"})
+        self.assertEqual(connected.status, 201, connected)
+
+        def state():
+            return daemon.get("/v1/connections/caq").json
+
+        def is_refused():
+            seen = state()
+            return "fitgauge.lock was removed" in (seen["last_error"] or "") and seen["position"] == 256 and seen
+
+        daemon.connection_in("caq", "failing")  # its first file is planned, and its folder is away
+        (daemon.data / "fitgauge.lock").rename(daemon.folder / "fitgauge.lock")
+        (root / "out").mkdir()
+        for _ in range(3):
+            refused = wait_for(is_refused, state)
+            self.assertEqual((refused["state"], refused["behind"], refused["files"]), ("failing", 44, 1))
+            wait_for(lambda: state()["attempts"] > refused["attempts"], state)
+        (daemon.folder / "fitgauge.lock").rename(daemon.data / "fitgauge.lock")
+        wait_for(lambda: state()["position"] == 300, state)
+        files = [path.read_text().splitlines() for path in sorted((root / "out").iterdir())]
+        self.assertEqual([len(lines) for lines in files], [256, 44])
+        self.assertEqual([json.loads(line)["id"] for lines in files for line in lines], [row["id"] for row in daemon.stored()])
 
     def test_nothing_is_written_into_the_folder_of_another(self):
         first = self.make_daemon().start()
