@@ -129,8 +129,8 @@ class Writing(Folders):
         self.store(daemon, "1", machine="M1")
         daemon.connection_in("caq", "failing")  # its file is planned
         self.store(daemon, "2", machine="M2")
-        self.folder.mkdir()
         self.out(daemon, 200, filter={"machine": "M2"})
+        self.folder.mkdir()
         self.wait(lambda: [row["part_id"] for row in self.rows()] == ["P2"])
         self.wait(lambda: daemon.get("/v1/connections/caq").json["behind"] == 0)
 
