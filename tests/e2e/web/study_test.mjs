@@ -67,7 +67,9 @@ describe('a gauge', () => {
     assert.deepEqual(await typed(), ['', '', 'in_use']);
     await page.fill('.of-gauge [name="due"]', '2099-06-30');
     await page.selectOption('.of-gauge [name="status"]', 'blocked');
+    const record = await holdAll(page, '**/C-1/calibrations');
     await page.dblclick('.of-gauge .primary');
+    record();
     await recorded();
     assert.deepEqual(await typed(), ['', '', 'in_use']);
     const stored = async (name) => (await daemon.json(`/v1/gauges-in-use/${name}/calibrations`)).calibrations.map(({ due, status }) => [due, status]);
