@@ -57,7 +57,7 @@ class Plans(DaemonTest):
         self.assertEqual((part()["verdict"], part()["missing"]), ("good", []))
         self.assertEqual([(c["characteristic"], c["measurement_id"], c["verdict"], c["measured_mm"])
                           for c in part()["characteristics"]], [("bore-A", good, "good", 25.01), ("slot", slot, "good", 8.01)])
-        measure(characteristic="bore-A", designation="25 H7", measured_mm="25.05", measured_at="2026-01-01T10:00:00Z")
+        measure(characteristic="bore-A", designation="25 H7", measured_mm="25.05", measured_at="2000-01-01T10:00:00Z")
         self.assertEqual((part()["verdict"], part()["characteristics"][0]["measurement_id"]), ("good", good), "what was measured before comes late")
         self.daemon.post(f"/v1/measurements/{slot}/corrections", {"measured_mm": "8.05", "reason": "misread"})
         self.assertEqual(part()["verdict"], "reject")
