@@ -19,7 +19,7 @@ class Certificates(DaemonTest):
         super().setUpClass()
         cls.daemon.request("PUT", "/v1/uncertainties/bore%20gauge", {"contributions": [
             {"name": "repeatability", "standard_uncertainty": 0.6}, {"name": "master", "standard_uncertainty": 0.5304}]})
-        cls.daemon.request("PUT", "/v1/gauges-in-use/G-07", {"uncertainty": "bore gauge", "calibration_due": "2027-03-31"})
+        cls.daemon.request("PUT", "/v1/gauges-in-use/G-07", {"uncertainty": "bore gauge", "calibration_due": "2099-03-31"})
         for number in range(60):
             cls.daemon.measure({"designation": "25 H7", "measured_mm": f"25.{number:03d}", "order": "WO-1",
                                 "part_id": f"SN-{number:02d}", "characteristic": "Bohrung Ø 25 links, Größe по чертежу",
