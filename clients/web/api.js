@@ -43,6 +43,9 @@ export const onKeyNeeded = (ask) => { askForKey = ask; };
 /** The key that was entered in this window, or null. */
 export const keyInUse = () => readStored(KEY, 'session');
 
+/** What tells keys apart, and is too little to use one. */
+export const signOf = (key) => key?.slice(0, 16);
+
 /** Uses a key from now on, as long as the window lives. */
 export function useKey(key) {
   store(KEY, key, 'session');
@@ -73,13 +76,15 @@ async function problemOf(response) {
  * @param body text, bytes, or an object that is sent as JSON
  * @param timeout in ms, of each attempt
  * @param asks whether a 401 asks for a key: not for what is only convenient
+ * @param sign of the only key that it is sent with; undefined for any
  */
-export async function request(method, path, { body, headers = {}, signal, timeout, asks = true } = {}) {
+export async function request(method, path, { body, headers = {}, signal, timeout, asks = true, sign } = {}) {
   const isJson = body !== undefined && Object.getPrototypeOf(body) === Object.prototype;
   const sent = isJson ? toJson(body) : body;
   const type = isJson ? { 'Content-Type': 'application/json' } : {};
   for (;;) {
     const key = keyInUse();
+    if (key && sign && sign !== signOf(key)) throw new Problem(401, { code: 'auth.required' });
     const authorization = key ? { Authorization: `Bearer ${key}` } : {};
     const response = await counted(method, () => fetch(path, {
       method, body: sent, cache: 'no-cache', headers: { ...type, ...headers, ...authorization },

@@ -1,12 +1,13 @@
 /**
  * Typed values on their way to the service. A value is in the browser's storage before it is sent and
  * until it is answered, under a key of its own that makes repeats safe: it arrives once, also when the
- * service is away or the page is loaded again meanwhile. One is sent at a time, in the order of typing.
+ * service is away or the page is loaded again meanwhile. One is sent at a time, in the order of typing, and each only
+ * with the key of the person who typed it.
  */
 
-import { isAway, Problem, request, url } from './api.js';
+import { isAway, keyInUse, Problem, request, signOf, url } from './api.js';
 import { connection } from './connection.js';
-import { forget, readJson, store, storedKeys } from './stored.js';
+import { forget, readJson, readStored, store, storedKeys } from './stored.js';
 
 const PREFIX = 'queue.';
 const SHORTEST_WAIT_MS = 200;
@@ -21,8 +22,8 @@ export const randomText = () =>
 
 /**
  * Fires `stored` with {entry, record}, `noted` with {entry}, `refused` with {entry, problem} and `change`. An entry
- * is {key, path, body, shown}: what is posted where, and what the page shows of it meanwhile. A note has `of` instead of
- * a path: the key of the value it is about, which is stored before it.
+ * is {key, path, body, shown, sign}: what is posted where, what the page shows of it meanwhile, and of which key it is. A
+ * note has `of` instead of a path: the key of the value it is about, which is stored before it.
  */
 class Queue extends EventTarget {
   #entries = [];
@@ -64,9 +65,33 @@ class Queue extends EventTarget {
     return [...others.map((name) => readJson(name, {})).filter(({ shown }) => shown), ...this.#entries];
   }
 
-  /** Those that are no notes. */
+  /** Those on their way: a note follows its value. */
+  get own() {
+    const { held } = this;
+    return this.#entries.filter((entry) => !held.includes(entry) && !held.some(({ key }) => key === entry.of));
+  }
+
+  /** Those of another key than that in use. */
+  get held() {
+    const sign = signOf(keyInUse());
+    return this.#entries.filter((entry) => sign && entry.sign && entry.sign !== sign);
+  }
+
+  /** The values on their way. */
   get values() {
-    return this.#entries.filter((entry) => !entry.of);
+    return this.own.filter((entry) => !entry.of);
+  }
+
+  /** Somebody sends with the key in use what waits for another, unless another window has sent it. */
+  adopt() {
+    const { held } = this;
+    this.#entries = this.#entries.filter((entry) => !held.includes(entry) || !entry.kept || readStored(entry.name) !== null);
+    for (const entry of held) {
+      delete entry.sign;
+      this.#keep(entry);
+    }
+    this.#changed();
+    this.send();
   }
 
   /**
@@ -88,7 +113,7 @@ class Queue extends EventTarget {
     // Names sort in the order of typing, also those of one millisecond.
     this.#lastTime = Math.max(this.#lastTime + 1, Date.now());
     const name = `${PREFIX}${String(this.#lastTime).padStart(15, '0')}.${key}`;
-    const entry = { name, key, ...content };
+    const entry = { name, key, sign: signOf(keyInUse()), ...content };
     this.#keep(entry);
     this.#entries.push(entry);
     this.#changed();
@@ -117,16 +142,16 @@ class Queue extends EventTarget {
     this.#keep(entry);
   }
 
-  /** Sends what there is until nothing is left, or a key is missing: the next value asks for it again. */
+  /** Sends what there is until nothing is left, or only what waits for a key: the next value asks for it again. */
   async send() {
     if (this.#sending) return;
     this.#sending = true;
     this.isLocked = false;
     let wait = SHORTEST_WAIT_MS;
-    while (this.#entries.length) {
-      const result = await this.#sendOne(this.#entries[0]);
+    for (let [first] = this.own; first; [first] = this.own) {
+      const result = await this.#sendOne(first);
       if (result === 'locked') {
-        this.isLocked = true;
+        if (keyInUse()) continue; // another key, which has its own values
         break;
       }
       if (result === 'answered') {
@@ -137,6 +162,7 @@ class Queue extends EventTarget {
       wait = Math.min(2 * wait, LONGEST_WAIT_MS);
     }
     this.#sending = false;
+    this.isLocked = this.size > 0;
     if (this.isLocked) this.#changed();
   }
 
@@ -158,6 +184,7 @@ class Queue extends EventTarget {
         body: entry.body,
         headers: { 'Content-Type': 'application/json', 'Idempotency-Key': `"${entry.key}"` },
         timeout: TIMEOUT_MS,
+        sign: entry.sign,
       });
       const record = await response.json();
       connection.report(true);
@@ -166,7 +193,14 @@ class Queue extends EventTarget {
     } catch (problem) {
       connection.report(!isAway(problem));
       if (problem.status === 401) return 'locked';
-      if (isAway(problem) || problem.passing) return 'later';
+      if (isAway(problem) || problem.passing) {
+        // It may be stored: with another key it would be stored again.
+        if (!entry.sign && keyInUse()) {
+          entry.sign = signOf(keyInUse());
+          this.#keep(entry);
+        }
+        return 'later';
+      }
       this.#finish(entry, 'refused', { entry, problem });
       return 'answered';
     }
@@ -175,7 +209,7 @@ class Queue extends EventTarget {
   #finish(entry, type, detail) {
     if (type === 'stored') this.#remember(entry.key, detail.record.id);
     forget(entry.name);
-    this.#entries.shift();
+    this.#entries = this.#entries.filter((each) => each !== entry);
     this.dispatchEvent(new CustomEvent(type, { detail }));
     this.#changed();
   }

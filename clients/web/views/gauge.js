@@ -137,8 +137,8 @@ export function mount(main, route) {
 
   /** The value that stands in the panel has no answer yet, and somebody wonders why. */
   function sayWaiting() {
-    const waiting = queue.values.find(({ key }) => key === panel.of);
-    if (waiting) showWaiting(waiting.shown, t(queue.isLocked ? 'panel.locked_how' : 'panel.waiting_how'));
+    const waiting = queue.entries.find(({ key }) => key === panel.of);
+    if (waiting) showWaiting(waiting.shown, t(queue.held.includes(waiting) ? 'panel.held_how' : queue.isLocked ? 'panel.locked_how' : 'panel.waiting_how'));
   }
 
   /** What became of a line is seen, also above a number pad on a phone. */
@@ -300,6 +300,7 @@ export function mount(main, route) {
   queue.addEventListener('change', () => {
     sayUnkept();
     if (queue.isLocked) sayWaiting();
+    badge.renew();
   }, { signal });
   connection.addEventListener('change', () => {
     sayUnkept();

@@ -48,7 +48,7 @@ describe('a badge', () => {
     await locked.cleanup();
   });
 
-  it('whose key is revoked has nobody logged in: what waits says so, and is sent with the key that is entered anywhere', async () => {
+  it('whose key is revoked has nobody logged in: what waits keeps waiting for it, says so, and is stored with another only by a touch', async () => {
     const locked = await new Daemon('--auth', 'read-open').start();
     const [ada, bob] = [await locked.key('ada', 'operator'), await locked.key('bob', 'operator')];
     const page = await open(browser, locked, '#/gauge/25H7');
@@ -70,12 +70,24 @@ describe('a badge', () => {
     await page.evaluate(() => { location.hash = '#/parts'; });
     await page.fill('dialog input', bob);
     await page.press('dialog input', 'Enter');
-    await says('#link', 'Connected');
-    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 2);
+    await page.waitForSelector('dialog', { state: 'detached' });
+    await says('#link', 'Key missing · 1 waiting');
     await page.evaluate(() => { location.hash = '#/gauge/25H7'; });
-    await says('.badge', `Key ${bob.slice(0, 7)}… in use`);
-    const { measurements } = await (await fetch(`${locked.url}/v1/measurements`, { headers: { Authorization: `Bearer ${bob}` } })).json();
-    assert.deepEqual(measurements.map((record) => [record.measured_mm, record.caller]), [[25.01, 'ada'], [25.011, 'bob']]);
+    await page.waitForSelector('.echo .figures');
+    await says('.badge', `^1 waiting for the key ${ada.slice(0, 7)}….*Key ${bob.slice(0, 7)}… in use`);
+    await scan(page, '25.012'); // of his own: nothing holds it up
+    await page.waitForFunction(() => document.querySelectorAll('.recent li.stored').length === 2);
+    assert.deepEqual(await findings(page), []);
+    await page.reload(); // he logs in again, and it still waits
+    await page.waitForSelector('.echo .figures');
+    await says('.badge', '^1 waiting');
+    const callers = async () => (await (await fetch(`${locked.url}/v1/measurements`, { headers: { Authorization: `Bearer ${bob}` } })).json())
+      .measurements.map((record) => [record.measured_mm, record.caller]);
+    assert.deepEqual(await callers(), [[25.01, 'ada'], [25.012, 'bob']]);
+    await page.getByRole('button', { name: 'Store with the key in use' }).click();
+    await says('#link', 'Connected');
+    await says('.badge', '^bob · key');
+    assert.deepEqual((await callers()).sort(), [[25.01, 'ada'], [25.011, 'bob'], [25.012, 'bob']]);
     await close(page);
     await locked.cleanup();
   });

@@ -177,9 +177,10 @@ describe('a key at the wrong moment', () => {
     await scan('25.012');
     await page.keyboard.type(`${second}\n`);
     await page.waitForSelector('dialog', { state: 'detached' });
+    await page.click('.badge >> text=Store with the key in use');
     await page.waitForFunction(() => document.querySelectorAll('.recent li.stored').length === 3);
     const { measurements } = await (await fetch(`${locked.url}/v1/measurements`, { headers: { Authorization: `Bearer ${second}` } })).json();
-    assert.deepEqual(measurements.map(({ part_id: part, measured_mm: mm }) => [part, mm]), [['SN-1', 25.011], ['SN-1', 25.0112], ['SN-2', 25.012]]);
+    assert.deepEqual(measurements.map(({ part_id: part, measured_mm: mm }) => [part, mm]), [['SN-1', 25.011], ['SN-2', 25.012], ['SN-1', 25.0112]]);
     await locked.cleanup();
   });
 });
