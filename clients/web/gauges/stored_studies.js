@@ -12,10 +12,14 @@ import { inTurn } from '../latest.js';
 const COLUMNS = ['study.name', 'field.gauge', 'study.kind', 'study.at'];
 const NONE = { name: '', tag: null };
 const pathOf = (name) => ['studies', name];
+/** A date is the same day everywhere; a time is of the day that it is here. */
+const dayOfStudy = (at) => (at.length === 10 ? at : dayText(new Date(at)));
 
 export class StoredStudies {
   /** That of the form, as it was read. */
   #current = NONE;
+  /** The time of the one that was opened, which the day in the form lacks. */
+  #at = '';
 
   /** @param orderOf gives the {kind, input} of the form; @param textOf gives all that is typed there; @param onStudy shows one that is chosen or was stored; @param leaving ends it */
   constructor({ leaving, orderOf, textOf, onStudy }) {
@@ -55,6 +59,7 @@ export class StoredStudies {
   /** The form begins another study. */
   begin() {
     this.#current = NONE;
+    this.#at = '';
   }
 
   async #read(name) {
@@ -67,14 +72,16 @@ export class StoredStudies {
     const study = await this.#read(name);
     this.inputs.name.value = name;
     this.inputs.gauge.value = study.gauge;
-    this.inputs.at.value = study.at.slice(0, 10);
+    this.#at = study.at;
+    this.inputs.at.value = dayOfStudy(study.at);
     await this.onStudy(study);
   }
 
   /** @param replacing whether what stands there now is replaced, whoever has written it */
   #store = inTurn(async ({ replacing = false } = {}) => {
-    const { name, gauge, at } = Object.fromEntries(Object.entries(this.inputs).map(([key, { value }]) => [key, value.trim()]));
+    const { name, gauge, at: day } = Object.fromEntries(Object.entries(this.inputs).map(([key, { value }]) => [key, value.trim()]));
     if (!name || !gauge) throw new Error(t('study.name_missing'));
+    const at = this.#at && day === dayOfStudy(this.#at) ? this.#at : day;
     const typed = this.textOf();
     const { kind, input } = await this.orderOf();
     const isNew = name !== this.#current.name;

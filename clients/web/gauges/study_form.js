@@ -26,8 +26,11 @@ const MOST_RECORDS = 1000;
 
 /** Names stand between commas; where there is a semicolon it alone is between them, and a comma is of a name. */
 const listOf = (text) => [...new Set(text.split(text.includes(';') ? ';' : /[,\n]/).map((one) => one.trim()).filter(Boolean))];
-/** "10" are parts 1 to 10; "A, B" are named. */
-const namesOf = (text, most) => (/^\d+$/.test(text.trim()) ? Array.from({ length: Math.min(Number(text), most) }, (_, i) => String(i + 1)) : listOf(text).slice(0, most));
+/** "10" are parts 1 to 10; "A, B" are named. One more than fit stands for any number. */
+const namesOf = (text, most) => (/^\d+$/.test(text.trim()) ? Array.from({ length: Math.min(Number(text), most + 1) }, (_, i) => String(i + 1)) : listOf(text));
+
+/** Whether the grid would show a part of a study. */
+const isTooLarge = (names) => Object.entries(MOST).some(([of, most]) => names[of].length > most);
 
 export class StudyForm {
   constructor(leaving) {
@@ -87,7 +90,7 @@ export class StudyForm {
 
   get #names() {
     const { parts, operators, trials } = this.state;
-    return { parts: namesOf(parts, MOST.parts), operators: listOf(operators).slice(0, MOST.operators), trials: namesOf(trials, MOST.trials) };
+    return { parts: namesOf(parts, MOST.parts), operators: listOf(operators), trials: namesOf(trials, MOST.trials) };
   }
 
   /** The grid: a part a row, a trial of an operator a column. */
@@ -96,7 +99,9 @@ export class StudyForm {
     for (const name of FIELDS) this.fields[name].hidden = !KINDS[kind].includes(name);
     this.grid.hidden = kind !== 'grr';
     this.taking.hidden = kind !== 'grr';
-    const { parts, operators, trials } = this.#names;
+    const names = this.#names;
+    const [parts, operators, trials] = Object.entries(MOST).map(([of, most]) => names[of].slice(0, most));
+    this.note.textContent = kind === 'grr' && isTooLarge(names) ? t('study.too_large', MOST) : '';
     const columns = operators.flatMap((operator) => trials.map((trial) => ({ operator, trial })));
     const drawn = JSON.stringify([parts, columns]);
     if (drawn === this.drawn) return;
@@ -144,7 +149,7 @@ export class StudyForm {
     Object.assign(this.state, state);
     this.#keep();
     this.drawn = '';
-    this.note.textContent = this.said.textContent = '';
+    this.said.textContent = '';
     this.#show();
   }
 
@@ -201,6 +206,7 @@ export class StudyForm {
 
   async #variation() {
     const { parts, operators, trials } = this.#names;
+    if (isTooLarge({ parts, operators, trials })) throw new Error(t('study.too_large', MOST));
     const tolerance = await this.#tolerance();
     const all = parts.flatMap((part) => operators.flatMap((operator) => trials.map((trial) => ({ part, operator, trial, typed: (this.state.cells[JSON.stringify([part, operator, trial])] ?? '').trim() }))));
     const read = all.filter(({ typed }) => typed).map(({ typed, ...of }) => ({ ...of, text: valueOf(typed) }));

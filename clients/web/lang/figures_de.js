@@ -13,6 +13,7 @@ export default {
   'study.from': 'An der Station gemessen',
   'study.take': 'Werte eines Merkmals übernehmen …',
   'study.cut': 'Das sind die neuesten {count} Messwerte, die in eine Studie passen; es gibt weitere.',
+  'study.too_large': 'Eine Studie hat hier höchstens {parts} Teile, {operators} Prüfer und {trials} Durchgänge. Diese ist größer: weder berechnet noch gespeichert.',
   'study.no_records': 'Keine Messung des Merkmals hat Teil und Prüfer.',
   'study.readings': 'Messwerte in mm',
   'study.compute': 'Auswerten',

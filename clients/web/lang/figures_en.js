@@ -13,6 +13,7 @@ export default {
   'study.from': 'Measured at the station',
   'study.take': 'Use the measurements of a characteristic …',
   'study.cut': 'These are the newest {count} readings that fit into a study; there are more.',
+  'study.too_large': 'A study has at most {parts} parts, {operators} operators and {trials} trials here. This one is larger: neither computed nor stored.',
   'study.no_records': 'No measurement of this characteristic has a part and an operator.',
   'study.readings': 'Readings in mm',
   'study.compute': 'Evaluate',

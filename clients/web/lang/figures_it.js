@@ -13,6 +13,7 @@ export default {
   'study.from': 'Misurati alla stazione',
   'study.take': 'Prendi i valori di una caratteristica …',
   'study.cut': 'Sono le {count} letture più recenti che entrano in uno studio; ce ne sono altre.',
+  'study.too_large': 'Uno studio ha qui al massimo {parts} pezzi, {operators} operatori e {trials} prove. Questo è più grande: né calcolato né salvato.',
   'study.no_records': 'Nessuna misura ha pezzo e operatore.',
   'study.readings': 'Letture in mm',
   'study.compute': 'Valuta',

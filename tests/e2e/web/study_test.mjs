@@ -214,6 +214,36 @@ describe('a gauge', () => {
     await close(west);
   });
 
+  it('keeps its time where it is stored again, and is not shown or stored in part', async () => {
+    const at = '2026-03-30T14:05:00Z';
+    const readings = (parts, trials) => Array.from({ length: parts * trials * 2 }, (_, i) => (
+      { part: `P${i % parts}`, operator: i < parts * trials ? 'Kim' : 'Jo', trial: String(1 + Math.floor(i / parts) % trials), value: 25 + (i * 7 % 11) / 1000 + (i % parts) / 100 }));
+    const study = (parts, trials) => ({ gauge: 'G-1', at, kind: 'grr', input: { measurements: readings(parts, trials) } });
+    for (const name of ['G-1', 'G-2']) await daemon.send('PUT', `/v1/gauges-in-use/${name}`, { calibration_due: '2099-03-31' });
+    for (const [name, parts, trials] of [['timed', 3, 2], ['many parts', 101, 2], ['many trials', 2, 21]]) await daemon.send('PUT', `/v1/studies/${name}`, study(parts, trials));
+    const page = await open(browser, daemon, '#/gauges');
+    const opened = async (name) => {
+      await page.click(`.stored-studies .quiet >> text="${name}"`);
+      await page.waitForFunction((wanted) => document.querySelector('[name="study-name"]').value === wanted, name);
+    };
+    await opened('timed');
+    await page.waitForSelector('.study-result table');
+    await page.fill('[name="study-gauge"]', 'G-2');
+    await page.click('.stored-studies [type="submit"]');
+    await page.waitForFunction(() => /timed is stored/.test(document.querySelector('.stored-studies [role="status"]').textContent));
+    const { gauge, at: stored } = await daemon.json('/v1/studies/timed');
+    assert.deepEqual([gauge, stored], ['G-2', at]);
+    for (const name of ['many parts', 'many trials']) {
+      await opened(name);
+      await page.waitForFunction(() => /at most 100 parts, 20 operators and 20 trials/.test(document.querySelector('.study form .note').textContent));
+      assert.equal(await page.$('.study-result table'), null);
+      await page.click('.stored-studies [type="submit"]');
+      await page.waitForFunction(() => /at most 100 parts/.test(document.querySelector('.stored-studies .note').textContent));
+      assert.deepEqual((await daemon.json(`/v1/studies/${name}`)).input.measurements.length, readings(name === 'many parts' ? 101 : 2, name === 'many parts' ? 2 : 21).length);
+    }
+    await close(page);
+  });
+
   it('is studied in a grid that Enter goes down, which says what is missing or no value', async () => {
     const page = await open(browser, daemon, '#/gauges');
     await page.fill('[name="parts"]', '2');
