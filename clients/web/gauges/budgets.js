@@ -6,12 +6,14 @@ import { mayDrop, readDocument, sayStoredFirst, writeDocument } from '../documen
 import { field, h, refill } from '../dom.js';
 import { explain, number, t } from '../i18n.js';
 import { inTurn, Latest } from '../latest.js';
+import { forget, readJson, store as keep, storedKeys } from '../stored.js';
 
 const NUMBERS = ['value', 'standard_uncertainty', 'half_width', 'sensitivity', 'degrees_of_freedom'];
 const DISTRIBUTIONS = ['normal', 'rectangular', 'triangular', 'u_shaped', 't'];
 const DIVISOR = { rectangular: Math.sqrt(3), triangular: Math.sqrt(6), u_shaped: Math.sqrt(2) };
 const COLUMNS = ['name', ...NUMBERS.slice(0, 3), 'distribution', ...NUMBERS.slice(3)];
 const DIGITS = 4;
+const DRAFTS = 'budget-draft/';
 const pathOf = (name) => ['uncertainties', name];
 
 /** What is no number goes as it was typed: the service says what is wrong with it. */
@@ -53,8 +55,10 @@ export class Budgets {
         h('button.primary', { type: 'button', onclick: () => this.#try(() => this.#store()) }, t('budget.store')), this.done));
     new Asked(async () => {
       await this.#list(this.#opened?.name ?? name);
-      if (!this.#opened) await this.open(name);
+      if (!this.#opened) await this.#begin(name);
     }, { say: (text) => { this.note.textContent = text; }, leaving }).run();
+    addEventListener('pagehide', () => this.#keepDraft(), { signal: leaving });
+    leaving.addEventListener('abort', () => this.#keepDraft());
   }
 
   async #try(act) {
@@ -87,14 +91,39 @@ export class Budgets {
   async open(name) {
     const found = await this.opening.run(async (signal) => (name ? readDocument(pathOf(name), signal) : { body: { contributions: [{}, {}] }, tag: null }));
     if (!found) return;
-    const { body } = found;
     this.#opened = { name, ...found };
-    this.choice.value = this.name.value = name;
-    this.model.value = body.model ?? '';
-    this.rows.replaceChildren(...body.contributions.map((one) => this.#row(one)));
+    this.#fill(found.body, name);
     this.#before = this.#text;
     this.onName(name);
     await this.evaluate();
+  }
+
+  #fill({ model = '', contributions }, typed) {
+    this.choice.value = this.#opened.name;
+    this.name.value = typed;
+    this.model.value = model;
+    this.rows.replaceChildren(...contributions.map((one) => this.#row(one)));
+  }
+
+  /** Goes on with what was typed and not stored: of no name, with any. */
+  async #begin(name) {
+    const kept = name ? DRAFTS + name : storedKeys(DRAFTS, 'session')[0];
+    const draft = kept && readJson(kept, null, 'session');
+    if (!draft) return this.open(name);
+    forget(kept, 'session');
+    this.#opened = draft.opened;
+    this.#before = draft.before;
+    this.#fill(draft.value, draft.typed);
+    this.onName(draft.opened.name);
+    return this.evaluate();
+  }
+
+  /** What was changed and not stored is kept while the window lives. */
+  #keepDraft() {
+    if (!this.#opened) return;
+    const kept = DRAFTS + this.#opened.name;
+    if (this.#text === this.#before) forget(kept, 'session');
+    else keep(kept, JSON.stringify({ opened: this.#opened, before: this.#before, typed: this.name.value, value: this.value }), 'session');
   }
 
   /** What it would store, as one text: to see whether something was changed. */

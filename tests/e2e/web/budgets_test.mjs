@@ -44,6 +44,38 @@ describe('an uncertainty budget', () => {
     await close(page);
   });
 
+  it('is kept while it is not stored: over a reload and another view, also a new one', async () => {
+    const page = await open(browser, daemon, '#/gauges?budget=bore-gauge');
+    const ring = '.budgets tbody tr:first-child';
+    await page.waitForFunction((row) => document.querySelector(`${row} [name="name"]`)?.value === 'ring', ring);
+    await page.fill(`${ring} [name="standard_uncertainty"]`, '0.7');
+    const goesOn = async (name, value) => {
+      await page.waitForFunction(([row, wanted]) => document.querySelector(`${row} [name="standard_uncertainty"]`)?.value === wanted, [ring, value]);
+      assert.equal(await page.inputValue('[name="budget-name"]'), name);
+    };
+    const elsewhere = async () => {
+      await page.click('#views a[href^="#/tables"]');
+      await page.waitForSelector('.grid');
+      await page.goBack();
+    };
+    await elsewhere();
+    await goesOn('bore-gauge', '0.7');
+    await page.reload();
+    await goesOn('bore-gauge', '0.7');
+    await page.fill('[name="budget-name"]', 'bore-kept');
+    await elsewhere();
+    await goesOn('bore-kept', '0.7');
+    await page.click('.budgets .primary');
+    await page.waitForFunction(() => /bore-kept is stored/.test(document.querySelector('.budgets [role="status"]').textContent));
+    const [ours, theirs] = await Promise.all(['bore-kept', 'bore-gauge'].map((name) => daemon.json(`/v1/uncertainties/${name}`)));
+    assert.deepEqual([ours, theirs].map(({ contributions: [{ standard_uncertainty: u }] }) => u), [0.7, 0.3]);
+    assert.equal(ours.contributions[2].limits_half_width, 0.3); // what the table has no column for
+    await elsewhere();
+    await goesOn('bore-kept', '0.7');
+    assert.deepEqual(await page.evaluate(() => Object.keys(sessionStorage).filter((key) => key.includes('budget-draft/'))), []);
+    await close(page);
+  });
+
   it('has a model, whose sensitivities the service finds; a mistake is marked at its cell', async () => {
     await daemon.send('PUT', '/v1/uncertainties/block', BLOCK);
     const page = await open(browser, daemon, '#/gauges?budget=block', { viewport: { width: 1024, height: 768 }, locale: 'it-IT' });
