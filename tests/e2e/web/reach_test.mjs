@@ -223,6 +223,52 @@ describe('the reach of the page', () => {
     await own.cleanup();
   });
 
+  it('breaks the longest names at the station of a phone, in tiles, reasons and corrections', async () => {
+    const own = await new Daemon().start();
+    const [part, plan, ...names] = ['W', 'P', 'C', 'D'].map((letter) => letter.repeat(199));
+    await own.send('PUT', `/v1/plans/${plan}`, { characteristics: names.map((name) => ({ name, designation: '25 H7', reaction: 'R'.repeat(199) })) });
+    const page = await open(browser, own, `#/gauge?plan=${plan}&part_id=${part}`, { viewport: { width: 360, height: 740 } });
+    await page.waitForSelector('.tiles-of-plan li');
+    await page.waitForSelector('.echo .figures');
+    const fits = async (when) => assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 360, when);
+    await fits('before the first value');
+    for (const [i] of names.entries()) {
+      await page.focus('#value');
+      await page.keyboard.type('25.03\n');
+      await page.waitForSelector(`.recent li.stored:nth-child(${i + 1})`);
+      await fits(`value ${i + 1}`);
+      await page.click('.reactions .primary');
+    }
+    assert.ok(await page.$$eval('.tiles-of-plan li', (tiles) => tiles.every((tile) => tile.clientWidth <= 330)), 'a tile is seen whole');
+    await page.focus('#value');
+    await page.keyboard.type('25.01\n'); // the part is measured
+    await page.waitForFunction(() => /Not stored/.test(document.querySelector('#entry-note').textContent));
+    await fits('a refusal');
+    await page.keyboard.press('Escape');
+    await page.getByRole('button', { name: /^Correct the part/ }).first().click();
+    await page.waitForSelector('.entry.correcting');
+    await fits('a correction');
+    await close(page);
+    await own.cleanup();
+  });
+
+  it('prints lists with long names whole', async () => {
+    const own = await new Daemon().start();
+    const [part_id, characteristic, operator, machine] = ['W', 'C', 'O', 'M'].map((letter) => letter.repeat(41));
+    await own.send('POST', '/v1/measurements', Array.from({ length: 12 }, (_, i) => ({ designation: '25 H7', measured_mm: 25 + i / 1000, part_id, characteristic, operator, machine })));
+    const page = await open(browser, own, '#/parts');
+    await page.emulateMedia({ media: 'print' });
+    await page.setViewportSize({ width: 657, height: 986 }); // A4 less its margins
+    for (const [at, ready] of [['#/parts', '.records tbody tr'], ['#/trend', '.trend > .scroll tbody tr'], ['#/overview', '.overview tbody tr']]) {
+      await page.evaluate((hash) => { location.hash = hash; }, at);
+      await page.waitForSelector(ready);
+      await drawn(page);
+      assert.deepEqual(await page.$$eval('#main table', (tables) => tables.map((table) => table.getBoundingClientRect().right).filter((right) => right > innerWidth + 1)), [], at);
+    }
+    await close(page);
+    await own.cleanup();
+  });
+
   it('shows the state of the service where colours are forced', async () => {
     if (browserName !== 'chromium') return;
     const page = await openView('tables', { viewport: { width: 1024, height: 768 }, forcedColors: 'active' });
