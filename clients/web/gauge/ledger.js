@@ -19,7 +19,7 @@ const isGone = (value) => ['refused', 'dropped'].includes(value.state);
 
 /**
  * Fires `change` with {value, elsewhere}. A value is {key, seq, state: waiting | stored | refused | dropped, shown, record, reason, root, by, past, partial}; the
- * first of a chain also has {cause, measure, text, operator, done, noted}.
+ * first of a chain also has {cause, measure, text, operator, done, noted, unnoted}.
  */
 export class Ledger extends EventTarget {
   #values = new Map();
@@ -35,7 +35,7 @@ export class Ledger extends EventTarget {
     for (const value of all) this.#values.set(value.key, value);
     this.#sort();
     line.addEventListener('stored', ({ detail: { entry: { key, shown }, record } }) => this.stored(key, shown, record));
-    line.addEventListener('refused', ({ detail: { entry: { key, of, shown }, problem } }) => !of && this.refused(key, shown, explain(problem)));
+    line.addEventListener('refused', ({ detail: { entry: { key, of, shown }, problem } }) => (of ? this.noteRefused(of, explain(problem)) : this.refused(key, shown, explain(problem))));
     globalThis.addEventListener?.('storage', ({ key }) => {
       const at = key?.indexOf(PREFIX) ?? -1;
       if (at >= 0) this.hear(key.slice(at + PREFIX.length));
@@ -68,6 +68,12 @@ export class Ledger extends EventTarget {
   refused(key, shown, reason) {
     if (!this.get(key)) this.#put({ key, state: 'refused', shown, reason });
     this.#change(key, (value) => Object.assign(value, { state: 'refused', reason }));
+  }
+
+  /** The last note of a chain is not stored. A value that is not stored either leaves its note to the one in its place. */
+  noteRefused(key, reason) {
+    const value = this.get(key);
+    if (value && !isGone(value)) this.#change(this.#rootOf(value).key, (root) => { root.unnoted = reason; });
   }
 
   /** A value that was asked about and not kept. */
@@ -117,10 +123,10 @@ export class Ledger extends EventTarget {
     for (const value of this.of(plan, part)) this.#change(value.key, (each) => { each.past = true; });
   }
 
-  /** Cause, measure, text and whether the reaction is done. */
+  /** Cause, measure, text, whether the reaction is done, and why the note is not stored. */
   said(value) {
-    const { cause, measure, text, done } = this.#rootOf(value);
-    return { cause, measure, text, done: Boolean(done) };
+    const { cause, measure, text, done, unnoted } = this.#rootOf(value);
+    return { cause, measure, text, done: Boolean(done), unnoted };
   }
 
   verdictOf({ record, shown }) {
@@ -234,7 +240,7 @@ export class Ledger extends EventTarget {
     const verdict = this.verdictOf(value);
     if (isGone(value) || !verdict || verdict === 'good' || root.noted?.includes(value.key)) return;
     const { cause, measure, text, operator } = root;
-    this.#change(root.key, (each) => { each.noted = [...each.noted ?? [], value.key]; });
+    this.#change(root.key, (each) => Object.assign(each, { noted: [...each.noted ?? [], value.key], unnoted: undefined }));
     // Two tabs that send it at once send it under one key.
     this.line.addNote({
       of: value.key, id: value.record?.id, key: `note-${value.key}`, body: toJson({ cause, measure, text, operator: operator || undefined }),

@@ -80,7 +80,7 @@ export class Recent {
       record ? recordMark(record) : waitingMark(state, shown),
       h('span.figure', record ? measuredText(record) : number(shown.measured)),
       h('span.aside', [part_id, characteristic, what, time(new Date(shown.at)), confirmed && t('confirmed.mark'), isOld && t(`recent.${now}`)].filter(Boolean).join(' · ')),
-      h('span.aside', record ? distanceText(record) : value.reason ?? ''), said.done && h('span.aside.noted', noteText(said)),
+      h('span.aside', record ? distanceText(record) : value.reason ?? ''), said.done && h('span.aside.noted', said.unnoted ? t('note.refused', { reason: said.unnoted }) : noteText(said)),
       state === 'stored' && !isOld && h('span.fix',
         this.#fix(record, 'measured_mm', 'recent.correct'), part_id && certificateLink(part_id, this.onProblem), this.#fix(record, 'part_id', 'recent.correct_part')));
   }

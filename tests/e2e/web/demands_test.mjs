@@ -45,6 +45,19 @@ describe('what a value demands', () => {
   const notes = async () => (await daemon.stored('history=all&notes=shown')).slice(-(await storedSince()).length)
     .map((record) => [record.measured_mm, ...(record.notes ?? []).map((note) => [note.cause, note.measure])]);
 
+  it('is not shown as said where the service refuses the note', async () => {
+    await station('SN-1');
+    await page.route('**/notes', (route) => (route.request().method() === 'GET' ? route.continue()
+      : route.fulfill({ status: 422, contentType: 'application/problem+json', body: '{"code":"request.invalid","detail":"no such cause"}' })));
+    await line('25.03');
+    await say('Insert worn', 'Insert changed');
+    await page.waitForFunction(() => /^The note was not stored: ./.test(document.querySelector('.recent .noted')?.textContent));
+    await page.reload();
+    await page.waitForFunction(() => /^The note was not stored: ./.test(document.querySelector('.recent .noted')?.textContent));
+    assert.deepEqual(await notes(), [[25.03]]);
+    await close(page);
+  });
+
   it('is asked once over an outage, and over an answer that takes longer than two taps', async () => {
     await station('SN-1');
     await daemon.stop();

@@ -48,6 +48,8 @@ class Storage {
   }
 }
 
+const refusal = (status) => ({ problem: { status, message: 'refused', errors: [], reason: 'refused' } });
+
 /** The service: each key once, records and their notes. */
 class Service {
   #answers = new Map();
@@ -73,13 +75,13 @@ class Service {
     if (this.#answers.has(key)) return this.#answers.get(key);
     if (of) {
       const about = this.get(id ?? ids.get(of));
-      if (!about) return { problem: { status: 404 } };
+      if (!about) return refusal(404);
       about.notes.push(note);
       this.#answers.set(key, { record: note });
       return { record: note };
     }
     const corrected = correcting && this.get(correcting);
-    if (content.refused || corrected?.corrected) return { problem: { status: 422, message: 'refused', errors: [], reason: 'refused' } };
+    if (content.refused || corrected?.corrected) return refusal(422);
     const answer = { record: this.store(content, corrected) };
     this.#answers.set(key, answer);
     return answer;
