@@ -12,11 +12,12 @@ export class NumberPad {
   constructor(input) {
     this.input = input;
     const point = number('0.1').charAt(1);
+    this.minus = h('button.minus', { type: 'button', hidden: true, onclick: () => this.#write('-'), 'aria-label': t('pad.minus') }, number('-'));
     const key = (text, act, label) => h('button', { type: 'button', onclick: act, 'aria-label': label }, text);
     this.element = h('div.pad', { role: 'group', 'aria-label': t('pad.label') },
       // The field keeps the focus and its caret.
       FIGURES.map((figure) => key(figure, () => this.#write(figure))), key(point, () => this.#write(point)), key('⌫', () => this.#back(), t('pad.back')),
-      h('button.primary', { type: 'button', onclick: () => this.input.form.requestSubmit(), 'aria-label': t('entry.judge') }, '⏎'));
+      h('button.primary', { type: 'button', onclick: () => this.input.form.requestSubmit(), 'aria-label': t('entry.judge') }, '⏎'), this.minus);
     this.element.addEventListener('pointerdown', (event) => event.preventDefault());
     const touched = matchMedia('(pointer: coarse)').matches ? 'on' : 'off';
     const on = (readStored(KEPT) ?? touched) === 'on';
@@ -25,6 +26,11 @@ export class NumberPad {
       this.#show(target.checked);
     } }), h('span', t('job.pad')));
     this.#show(on);
+  }
+
+  /** Has a key for the sign where a value may be below 0. */
+  signed(on) {
+    this.minus.hidden = !on;
   }
 
   #show(on) {

@@ -44,6 +44,7 @@ export default {
   'job.pad': 'Ein Ziffernblock auf dem Bildschirm',
   'pad.label': 'Ziffernblock',
   'pad.back': 'Letztes Zeichen löschen',
+  'pad.minus': 'Minus',
   'reaction.label': 'Zuerst zu tun',
   'reaction.first': 'Nicht gespeichert. Zuerst: {reaction}. Danach „Erledigt“ antippen.',
   'reaction.done': 'Erledigt',

@@ -44,6 +44,7 @@ export default {
   'job.pad': 'A number pad on the screen',
   'pad.label': 'Number pad',
   'pad.back': 'Delete the last character',
+  'pad.minus': 'Minus',
   'reaction.label': 'To be done first',
   'reaction.first': 'Not stored. First: {reaction}. Then tap Done.',
   'reaction.done': 'Done',

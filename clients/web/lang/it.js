@@ -44,6 +44,7 @@ export default {
   'job.pad': 'Un tastierino sullo schermo',
   'pad.label': 'Tastierino',
   'pad.back': 'Cancella l’ultimo carattere',
+  'pad.minus': 'Meno',
   'reaction.label': 'Da fare prima',
   'reaction.first': 'Non salvato. Prima: {reaction}. Poi toccare Fatto.',
   'reaction.done': 'Fatto',

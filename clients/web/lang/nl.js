@@ -44,6 +44,7 @@ export default {
   'job.pad': 'Een cijferblok op het scherm',
   'pad.label': 'Cijferblok',
   'pad.back': 'Laatste teken wissen',
+  'pad.minus': 'Min',
   'reaction.label': 'Eerst te doen',
   'reaction.first': 'Niet opgeslagen. Eerst: {reaction}. Tik daarna op Gedaan.',
   'reaction.done': 'Gedaan',

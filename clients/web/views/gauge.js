@@ -4,7 +4,7 @@ import { url } from '../api.js';
 import { connection } from '../connection.js';
 import { parseDesignation } from '../designation.js';
 import { h } from '../dom.js';
-import { Decimal, judge, nmFromMm, toJson } from '../exact.js';
+import { Decimal, judge, leastOf, nmFromMm, toJson } from '../exact.js';
 import { Arrivals } from '../gauge/arrivals.js';
 import { Badge } from '../gauge/badge.js';
 import { follow } from '../events.js';
@@ -66,7 +66,10 @@ export function mount(main, route) {
       } else if (!panel.answered()) next();
     },
     recordOf: (id) => recent.inForce(id),
-    onCorrecting: (record, what) => (record ? panel.correcting(record, what) : panel.answered()),
+    onCorrecting: (record, what) => {
+      pad.signed(leastOf(record ?? job.limits) < 0);
+      return record ? panel.correcting(record, what) : panel.answered();
+    },
     onTest: (result) => panel.scanner(result, job.prefixes.fieldOf(result.before)),
     onDropped: (text) => {
       const key = `dropped-${randomText()}`;
@@ -195,6 +198,7 @@ export function mount(main, route) {
     const path = job.designation ? [job.designation] : [];
     go({ view: 'gauge', path, options: { ...job.options, plan: plan.chosen, ...(plan.part && { gauge: job.ownGauge }) } }, { refine: true });
     entry.jobChanged();
+    if (!entry.correcting) pad.signed(leastOf(job.limits) < 0);
     if (plan.samples.ofAnother) plan.samples.renew();
     if (job.part !== partBefore) {
       partBefore = job.part;

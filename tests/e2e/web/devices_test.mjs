@@ -149,6 +149,27 @@ describe('a number pad', () => {
     }
     await close(page);
   });
+
+  it('has a minus where a value may be below 0, and there alone', async () => {
+    await daemon.send('PUT', '/v1/plans/SIGNED', { characteristics: [{ name: 'offset', nominal_mm: 0, quantity: 'deviation', upper_um: 20, lower_um: -20 }, { name: 'bore', designation: '25 H7' }] });
+    const page = await open(browser, daemon, '#/gauge?plan=SIGNED&part_id=SN-1', { locale: 'de-DE' });
+    await page.click('.more summary');
+    await page.check('[name="pad"]');
+    await page.waitForSelector('.tiles-of-plan li');
+    await page.waitForSelector('.pad .minus:visible');
+    assert.deepEqual(await findings(page), []);
+    for (const key of ['Minus', '0', ',', '0', '1', '2']) await page.getByRole('button', { name: key, exact: true }).click();
+    assert.equal(await page.inputValue('#value'), '-0,012');
+    await page.click('.pad .primary');
+    await page.waitForSelector('.pad .minus', { state: 'hidden' }); // the bore
+    await page.waitForSelector('.recent li.stored');
+    assert.deepEqual((await storedSince()).map((record) => record.measured_mm), [-0.012]);
+    await page.click('.recent .fix button:first-child'); // it is corrected as what it is
+    await page.waitForSelector('.pad .minus:visible');
+    await page.keyboard.press('Escape');
+    await page.waitForSelector('.pad .minus', { state: 'hidden' });
+    await close(page);
+  });
 });
 
 describe('a gauge on a serial port', () => {
