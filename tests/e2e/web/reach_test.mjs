@@ -259,7 +259,7 @@ describe('the reach of the page', () => {
     const page = await open(browser, own, '#/parts');
     await page.emulateMedia({ media: 'print' });
     await page.setViewportSize({ width: 657, height: 986 }); // A4 less its margins
-    for (const [at, ready] of [['#/parts', '.records tbody tr'], ['#/trend', '.trend > .scroll tbody tr'], ['#/overview', '.overview tbody tr']]) {
+    for (const [at, ready] of [['#/parts', '.records tbody tr'], ['#/trend', '.trend > .scroll tbody tr'], ['#/overview', '.overview tbody tr'], ['#/gauges', '.budgets tbody tr']]) {
       await page.evaluate((hash) => { location.hash = hash; }, at);
       await page.waitForSelector(ready);
       await drawn(page);
