@@ -37,6 +37,9 @@ export function mount(main, route) {
     h('option', { value: word, selected: word === (route.options.verdict ?? '') }, word ? t(`verdict.${word}`) : t('parts.any'))));
   const corrected = h('input', { type: 'checkbox', checked: route.options.history === 'all', onchange: () => search() });
   const said = h('p.note', { role: 'status' });
+  /** Why a file or certificate is not there: it stays, whatever happens to the list meanwhile. */
+  const refused = h('p.note', { role: 'alert' });
+  const refuse = (reason = '') => { refused.textContent = reason; };
   const table = h('table', h('thead', h('tr', { 'aria-rowindex': 1 }, ['field.part_id', 'field.characteristic', 'trend.verdict', 'trend.value', 'parts.deviation', 'parts.limits', 'parts.by', 'trend.time']
     .map((name) => h('th', { scope: 'col' }, t(name))), h('td'))), h('tbody'));
   const list = new LongList(table, t('view.parts'), {
@@ -48,8 +51,9 @@ export function mount(main, route) {
   const ofPart = h('div.of-one-part', { role: 'status' });
   const sheet = new Latest(leaving.signal);
   const exported = Object.fromEntries(Object.entries(FORMS).map(([format, form]) => [format,
-    downloadLink({ download: `measurements.${format}` }, t('parts.save', { form }), (reason) => { said.textContent = reason; }, { bounded: format !== 'csv' })]));
-  const certificate = new CertificateForm((reason) => { said.textContent = reason; });
+    downloadLink({ download: `measurements.${format}` }, t('parts.save', { form }), refuse, { bounded: format !== 'csv' })]));
+  const certificate = new CertificateForm(refuse);
+  for (const link of [...Object.values(exported), certificate.link]) link.addEventListener('click', () => refuse());
   /** How many rows are older than the first in sight. */
   let at = /^\d+$/.test(route.options.at ?? '') ? Number(route.options.at) : undefined;
   /** Of this list: where another is chosen, the place does not count. */
@@ -61,7 +65,7 @@ export function mount(main, route) {
     h('form.line', { onsubmit: (event) => { event.preventDefault(); search(); } },
       FIELDS.map((name) => field(t(`field.${name}`), inputs[name])), field(t('trend.verdict'), verdict), bar.element,
       h('button.unseen', { type: 'submit', tabindex: -1 }, t('parts.search'))),
-    h('p.actions', Object.values(exported), h('label.choice', corrected, h('span', t('parts.history'))), list.place), certificate.element, ofPart, said, list.scroller));
+    h('p.actions', Object.values(exported), h('label.choice', corrected, h('span', t('parts.history'))), list.place), certificate.element, ofPart, said, refused, list.scroller));
 
   /** As the address has it. */
   const options = () => ({ ...filter(), source: '', from: '', to: '', ...bar.options, at });
@@ -84,6 +88,7 @@ export function mount(main, route) {
     const { part_id, order } = filter();
     certificate.show({ part_id, order });
     said.textContent = '';
+    if (!isAgain) refuse();
     places = undefined;
     verdicts.forget();
     showPart(part_id);

@@ -9,7 +9,7 @@
 import assert from 'node:assert/strict';
 import { afterEach, describe, it } from 'node:test';
 
-import { close, findings, hashOf, open, openIn, picture, saved, timer } from './support/browser.mjs';
+import { close, drawn, findings, hashOf, open, openIn, picture, saved, timer } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
 import { holdAll } from './support/hold.mjs';
 import { scan } from './support/scanner.mjs';
@@ -451,7 +451,12 @@ describe('what is saved as a file', () => {
     await page.route('**/v1/measurements?*format=xlsx*', (route) => route.fulfill({
       status: 400, contentType: 'application/problem+json', body: '{"code":"export.too_many","detail":"a file has at most 100,000 measurements"}' }));
     await page.getByText('Save all as Excel').click();
-    await page.waitForFunction(() => /100,000/.test(document.querySelector('.parts .note')?.textContent));
+    const refused = () => /100,000/.test(document.querySelector('.parts .note[role="alert"]').textContent);
+    await page.waitForFunction(refused);
+    await daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.0141', part_id: 'SAVED-1' });
+    await page.waitForFunction(() => /25\.0141/.test(document.querySelector('.records tbody').textContent));
+    await drawn(page);
+    assert.ok(await page.evaluate(refused), 'it stays while the list goes on');
     await isSaved('CSV', 'measurements.csv', 'id,'); // a link alone, after which the driver of Firefox waits for a page
   });
 
