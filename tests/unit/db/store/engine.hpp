@@ -5,8 +5,6 @@
 
 namespace fitgauge::store::test {
 
-inline constexpr bool kIsOneProcess = false;
-
 /// A database of its own in a server that lives as long as the tests; fails the test where there is
 /// no PostgreSQL.
 void prepare_engine(OpenOptions& options);
