@@ -43,7 +43,6 @@ class Executor : ExecutorSteps {
 // Macros that are labels and statements confuse the formatter.
 // clang-format off
 
-#define FITGAUGE_OP(name) op_##name
 // NOLINTNEXTLINE(bugprone-macro-parentheses): a statement
 #define FITGAUGE_NEXT() goto* kHandlers[static_cast<std::size_t>(pc->op)]
 // Forgets the state of a variable. The rare way out reads everything again, so that the usual way
@@ -54,6 +53,9 @@ class Executor : ExecutorSteps {
 #define FITGAUGE_BEGIN()                                            \
   if ((fuel -= pc->blocks) < 0) [[unlikely]] goto out_of_fuel;      \
   if constexpr (kFollowed) announce(pc)
+
+// Begins the code of an operation.
+#define FITGAUGE_OP(name) op_##name: FITGAUGE_BEGIN()
 
 // Keeps a result, which must be finite: else an operand is undefined or the operation failed.
 #define FITGAUGE_KEEP(value)                                        \
@@ -112,91 +114,68 @@ void Executor<kFollowed>::loop(const Instruction* first) {
   const Instruction* next = nullptr;
   FITGAUGE_NEXT();
 
-  FITGAUGE_OP(Add):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(Add);
     FITGAUGE_STORE(cells[pc->a] + cells[pc->b]);
-  FITGAUGE_OP(Subtract):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(Subtract);
     FITGAUGE_STORE(cells[pc->a] - cells[pc->b]);
-  FITGAUGE_OP(Multiply):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(Multiply);
     FITGAUGE_STORE(cells[pc->a] * cells[pc->b]);
-  FITGAUGE_OP(Divide):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(Divide);
     FITGAUGE_STORE(cells[pc->a] / cells[pc->b]);
-  FITGAUGE_OP(Copy):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(Copy);
     FITGAUGE_STORE(cells[pc->a]);
-  FITGAUGE_OP(Compute):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(Compute);
     FITGAUGE_STORE(compute(pc->function, cells[pc->a], cells[pc->b]));
-  FITGAUGE_OP(Evaluate):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(Evaluate);
     FITGAUGE_CALL(evaluate_node(pc));
 
-  FITGAUGE_OP(JumpEqual):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(JumpEqual);
     FITGAUGE_BRANCH(are_equal(a, b), is_defined(a) && is_defined(b));
-  FITGAUGE_OP(JumpNotEqual):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(JumpNotEqual);
     FITGAUGE_BRANCH(is_defined(a) && is_defined(b) && !are_equal(a, b), are_equal(a, b));
-  FITGAUGE_OP(JumpGreater):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(JumpGreater);
     FITGAUGE_BRANCH(a > b, a <= b);
-  FITGAUGE_OP(JumpLess):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(JumpLess);
     FITGAUGE_BRANCH(a < b, a >= b);
-  FITGAUGE_OP(JumpDefined):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(JumpDefined);
     pc = is_defined(cells[pc->a]) ? code + pc->c : pc + 1;
     FITGAUGE_NEXT();
-  FITGAUGE_OP(JumpUndefined):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(JumpUndefined);
     pc = is_defined(cells[pc->a]) ? pc + 1 : code + pc->c;
     FITGAUGE_NEXT();
-  FITGAUGE_OP(JumpWhen):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(JumpWhen);
     FITGAUGE_CALL(jump_when(pc));
 
-  FITGAUGE_OP(AddThenAdd):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(AddThenAdd);
     FITGAUGE_KEEP(cells[pc->a] + cells[pc->b]);
     FITGAUGE_BEGIN();
     FITGAUGE_STORE(cells[pc->a] + cells[pc->b]);
-  FITGAUGE_OP(AddThenJumpLess):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(AddThenJumpLess);
     FITGAUGE_KEEP(cells[pc->a] + cells[pc->b]);
     FITGAUGE_BEGIN();
     FITGAUGE_BRANCH(a < b, a >= b);
-  FITGAUGE_OP(AddTwiceThenJumpLess):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(AddTwiceThenJumpLess);
     FITGAUGE_KEEP(cells[pc->a] + cells[pc->b]);
     FITGAUGE_BEGIN();
     FITGAUGE_KEEP(cells[pc->a] + cells[pc->b]);
     FITGAUGE_BEGIN();
     FITGAUGE_BRANCH(a < b, a >= b);
 
-  FITGAUGE_OP(Count):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(Count);
     ++pc;
     FITGAUGE_NEXT();
-  FITGAUGE_OP(SkipBlock):
+  op_SkipBlock:
     pc = channel_.options.block_skip ? code + pc->c : pc + 1;
     FITGAUGE_NEXT();
-  FITGAUGE_OP(CallLabel):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(CallLabel);
     FITGAUGE_CALL(call_label(pc->c, pc));
-  FITGAUGE_OP(LabelEnd):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(LabelEnd);
     FITGAUGE_CALL(end_label(pc));
-  FITGAUGE_OP(Repeat):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(Repeat);
     FITGAUGE_CALL(repeat(pc));
-  FITGAUGE_OP(Statement):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(Statement);
     FITGAUGE_CALL(statement(pc));
-  FITGAUGE_OP(End):
-    FITGAUGE_BEGIN();
+  FITGAUGE_OP(End);
     FITGAUGE_CALL(end_block(pc));
 
   out_of_fuel:
