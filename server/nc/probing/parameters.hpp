@@ -15,57 +15,49 @@ struct Address {
   ParameterId id;
 };
 
-constexpr CycleParameter coordinate(Address address, std::string_view meaning,
-                                    std::optional<double> by_default = {}) {
+/// A number in a range.
+constexpr CycleParameter ranged(Address address, std::string_view meaning, Unit unit,
+                                ValueRange range, std::optional<double> by_default = {},
+                                ValueKind kind = ValueKind::Number) {
   return {.id = address.id,
           .meaning = meaning,
-          .unit = Unit::Length,
-          .range = {-kLongest, kLongest},
+          .unit = unit,
+          .kind = kind,
+          .range = range,
           .default_value = by_default};
+}
+
+constexpr CycleParameter coordinate(Address address, std::string_view meaning,
+                                    std::optional<double> by_default = {}) {
+  return ranged(address, meaning, Unit::Length, {-kLongest, kLongest}, by_default);
 }
 
 constexpr CycleParameter length(Address address, std::string_view meaning,
                                 std::optional<double> by_default = {}) {
-  CycleParameter made = coordinate(address, meaning, by_default);
-  made.range.min = 0;
-  return made;
+  return ranged(address, meaning, Unit::Length, {0, kLongest}, by_default);
 }
 
 constexpr CycleParameter angle(Address address, std::string_view meaning, double limit = 360,
                                std::optional<double> by_default = {}) {
-  return {.id = address.id,
-          .meaning = meaning,
-          .unit = Unit::Angle,
-          .range = {-limit, limit},
-          .default_value = by_default};
+  return ranged(address, meaning, Unit::Angle, {-limit, limit}, by_default);
 }
 
 /// A feed; 0 if the control's dialog allows it.
 constexpr CycleParameter feed(Address address, std::string_view meaning,
                               std::optional<double> by_default = {}) {
-  return {.id = address.id,
-          .meaning = meaning,
-          .unit = Unit::Feed,
-          .kind = ValueKind::NumberOrMax,
-          .range = {0, kLongest},
-          .default_value = by_default};
+  return ranged(address, meaning, Unit::Feed, {0, kLongest}, by_default, ValueKind::NumberOrMax);
 }
 
 /// A number without a unit.
 constexpr CycleParameter plain(Address address, std::string_view meaning, double least, double most,
                                std::optional<double> by_default = {}) {
-  return {
-      .id = address.id, .meaning = meaning, .range = {least, most}, .default_value = by_default};
+  return ranged(address, meaning, Unit::None, {least, most}, by_default);
 }
 
 /// A whole number of a few; without a default it must be given.
 constexpr CycleParameter choice(Address address, std::string_view meaning, double first,
                                 double last, std::optional<double> by_default = {}) {
-  return {.id = address.id,
-          .meaning = meaning,
-          .kind = ValueKind::Whole,
-          .range = {first, last},
-          .default_value = by_default};
+  return ranged(address, meaning, Unit::None, {first, last}, by_default, ValueKind::Whole);
 }
 
 /// A parameter whose amount must not be less than that.
@@ -137,13 +129,10 @@ constexpr auto circle(const std::array<CycleParameter, 2>& centre) {
 }
 /// Exact radius of a ring, stud or sphere.
 constexpr CycleParameter standard_radius(std::string_view meaning) {
-  return {.id = q(407), .meaning = meaning, .unit = Unit::Length, .range = {0.0001, 99.9999}};
+  return ranged(407, meaning, Unit::Length, {0.0001, 99.9999});
 }
-inline constexpr CycleParameter kFirstTouchAngle{.id = q(380),
-                                                 .meaning = "Angle of the first touch",
-                                                 .unit = Unit::Angle,
-                                                 .range = {0, 360},
-                                                 .default_value = 0};
+inline constexpr CycleParameter kFirstTouchAngle =
+    ranged(380, "Angle of the first touch", Unit::Angle, {0, 360}, 0);
 inline constexpr CycleParameter kTouches = newer(choice(423, "Number of touches", 3, 4, 4));
 inline constexpr CycleParameter kTraverse = newer(choice(365, "Traverse: 0 line, 1 arc", 0, 1, 1));
 
@@ -162,12 +151,9 @@ inline constexpr CycleParameter kMeasuringLog =
     choice(281, "Measuring log: 0 none, 1 file, 2 stop and show", 0, 2, 1);
 inline constexpr CycleParameter kStopOnTolerance =
     choice(309, "Stop out of tolerance: 0 no, 1 yes", 0, 1, 0);
-inline constexpr CycleParameter kMonitoringTool = {
-    .id = q(330),
-    .meaning = "Tool to be corrected, number or name, 0 none",
-    .kind = ValueKind::NumberOrText,
-    .range = {0, 32767.9},
-    .default_value = 0};
+inline constexpr CycleParameter kMonitoringTool =
+    ranged(330, "Tool to be corrected, number or name, 0 none", Unit::None, {0, 32767.9}, 0,
+           ValueKind::NumberOrText);
 inline constexpr CycleParameter kReverseTool =
     newer(choice(498, "Reverse tool: 0 no, 1 yes", 0, 1, 0));
 inline constexpr CycleParameter kAngleOfIncidence = newer(angle(531, "Angle of incidence", 180, 0));

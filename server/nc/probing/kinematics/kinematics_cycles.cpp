@@ -22,11 +22,8 @@ constexpr HtmlLog kLog{"TCHPR450.html", "Log of cycle 450",
 
 constexpr std::array k450Parameters =
     list(choice(410, "Mode: 0 save, 1 restore, 2 status, 3 delete", 0, 3),
-         CycleParameter{.id = q(kRecordName),
-                        .meaning = "Number or name of the record",
-                        .kind = ValueKind::NumberOrText,
-                        .range = {0, 99999},
-                        .required = false});
+         optional(ranged(kRecordName, "Number or name of the record", Unit::None, {0, 99999}, {},
+                         ValueKind::NumberOrText)));
 
 /// @errors 1017 no name, 1011 a name that is empty, too long or not printable, or a broken number.
 CycleResult<std::string> record_name(const Arguments& arguments) {
@@ -129,12 +126,8 @@ constexpr CycleParameter kBacklashAngle =
 constexpr std::array kSphereApproach =
     list(standard_radius("Exact radius of the calibration sphere"), kSetUpClearance,
          length(408, "Retraction height before a rotary axis turns, 0 none", 0),
-         CycleParameter{.id = q(253),
-                        .meaning = "Feed for pre-positioning",
-                        .unit = Unit::Feed,
-                        .kind = ValueKind::NumberOrMax,
-                        .range = {0.0001, kLongest},
-                        .default_value = 750},
+         ranged(253, "Feed for pre-positioning", Unit::Feed, {0.0001, kLongest}, 750,
+                ValueKind::NumberOrMax),
          kFirstTouchAngle);
 
 constexpr double kLargestRotaryAngle = 359.9999;

@@ -79,12 +79,8 @@ constexpr double kLastResult = 1996;  ///< four parameters follow each other
 /// The sub-lines 3 of cycles 3 and 4.
 constexpr std::array kTouch{
     in_part(3, length(ParameterId::WordDistance, "Longest travel")),
-    CycleParameter{.id = ParameterId::WordFeed,
-                   .meaning = "Probing feed, else that of the probe table",
-                   .unit = Unit::Feed,
-                   .range = {0, kLongest},
-                   .required = false,
-                   .part = 3},
+    in_part(3, optional(ranged(ParameterId::WordFeed, "Probing feed, else that of the probe table",
+                               Unit::Feed, {0, kLongest}))),
     in_part(3, optional(length(ParameterId::WordRetract,
                                "Way back after contact, at most to the start"))),
     in_part(3, choice(ParameterId::WordReferenceSystem,
@@ -95,11 +91,7 @@ constexpr std::array k3Parameters = list(
     in_part(4, choice(ParameterId::WordErrorMode, "Without contact: 0 stop, 1 go on", 0, 1, 0)));
 
 constexpr CycleParameter direction(ParameterId axis) {
-  return {.id = axis,
-          .meaning = "Component of the probing direction",
-          .range = {-kLongest, kLongest},
-          .default_value = 0,
-          .part = 2};
+  return in_part(2, plain(axis, "Component of the probing direction", -kLongest, kLongest, 0));
 }
 
 constexpr std::array k4Parameters =

@@ -109,11 +109,7 @@ CycleResult<void> measure_plane(const CycleContext& context, ProbingMotion& moti
 }
 
 constexpr std::array k441Parameters =
-    list(CycleParameter{.id = q(396),
-                        .meaning = "Positioning feed, 0: FMAX of the probe",
-                        .unit = Unit::Feed,
-                        .range = {0, kLongest},
-                        .default_value = 0},
+    list(ranged(396, "Positioning feed, 0: FMAX of the probe", Unit::Feed, {0, kLongest}, 0),
          choice(397, "Position with the rapid of the machine: 0 no, 1 yes", 0, 1, 0),
          choice(399, "Angle tracking: 0 no, 1 yes", 0, 1, 1),
          choice(400, "Automatic interruption: 0 no, 1 yes", 0, 1, 1),

@@ -17,10 +17,10 @@ constexpr std::array k1400 = list(kFace, kEnd);
 constexpr std::array k1404 = list(kWidth, kEnd);
 constexpr std::array k1430 = list(kFace, kUndercut);
 constexpr std::array k1434 = list(kWidth, kUndercut);
-constexpr std::array k1493 = list(
-    kObjectDirection, choice(1145, "Number of repetitions", 1, 99),
-    CycleParameter{.id = q(1146), .meaning = "Length", .unit = Unit::Length, .range = {-99, 99}},
-    choice(1149, "Effect: 0 next cycle, 1 until the program ends", 0, 1, 0));
+constexpr std::array k1493 =
+    list(kObjectDirection, choice(1145, "Number of repetitions", 1, 99),
+         ranged(1146, "Length", Unit::Length, {-99, 99}),
+         choice(1149, "Effect: 0 next cycle, 1 until the program ends", 0, 1, 0));
 
 constexpr auto kFaceResults = object_results<1>(std::array<CycleOutput, 0>{});
 constexpr auto kWidthResults =

@@ -192,10 +192,8 @@ CycleResult<void> in_one_axis(const CycleContext& context, ProbingMotion& motion
   return set_datum_of_axis(context, motion.plane(), touched.surface, touched.axis);
 }
 
-constexpr std::array k247Parameters = list(CycleParameter{.id = q(339),
-                                                          .meaning = "Number or name of the preset",
-                                                          .kind = ValueKind::NumberOrText,
-                                                          .range = {0, 65535}});
+constexpr std::array k247Parameters{ranged(339, "Number or name of the preset", Unit::None,
+                                           {0, 65535}, {}, ValueKind::NumberOrText)};
 
 /// Returns the row whose column DOC has the name.
 CycleResult<int> named_row(const machine::PresetTable& presets, const std::string& name) {
