@@ -42,8 +42,17 @@ struct Box {
 class BoxTree {
  public:
   BoxTree() = default;
-  /// @param order the number of the box that comes to each place
-  BoxTree(const std::vector<Box>& boxes, std::vector<std::uint32_t>& order);
+  /// Brings the items into the order of the tree. @param box_of the box of an item
+  template <class Kept, class BoxOf>
+  BoxTree(std::vector<Kept>& items, const BoxOf& box_of) {
+    std::vector<Box> boxes;
+    boxes.reserve(items.size());
+    for (const Kept& item : items) boxes.push_back(box_of(item));
+    std::vector<Kept> ordered;
+    ordered.reserve(items.size());
+    for (const Item& item : build(boxes)) ordered.push_back(std::move(items[item.box]));
+    items = std::move(ordered);
+  }
 
   bool is_empty() const { return nodes_.empty(); }
   /// Bounds of all triangles. @pre not empty.
@@ -137,6 +146,8 @@ class BoxTree {
     }
   }
 
+  /// Builds the tree of boxes. @returns their numbers in its order
+  std::vector<Item> build(const std::vector<Box>& boxes);
   void build(const std::vector<Box>& boxes, std::vector<Item>& items, std::uint32_t begin,
              std::uint32_t end);
 

@@ -189,7 +189,7 @@ Solid solid_of(const Surface& surface) {
   std::vector<Triangle> triangles;
   for (const auto& [a, b, c] : mesh.triangles)
     triangles.push_back({surface.points[a], surface.points[b], surface.points[c]});
-  Ground ground{TriangleTree(triangles), {}};
+  Ground ground{TriangleTree(std::move(triangles)), {}};
   for (const std::uint32_t point : mesh.hull) ground.hull.push_back(surface.points[point]);
   ground.hull.push_back(ground.hull.front());
   Box box = ground.top.box();

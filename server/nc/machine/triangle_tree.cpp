@@ -111,15 +111,8 @@ std::optional<double> contact(const Triangle& triangle, const BallPath& ball) {
   return first;
 }
 
-TriangleTree::TriangleTree(const std::vector<Triangle>& triangles) {
-  std::vector<Box> boxes;
-  boxes.reserve(triangles.size());
-  for (const Triangle& triangle : triangles) boxes.push_back(box_of(triangle));
-  std::vector<std::uint32_t> order;
-  tree_ = BoxTree(boxes, order);
-  triangles_.reserve(triangles.size());
-  for (const std::uint32_t place : order) triangles_.push_back(triangles[place]);
-}
+TriangleTree::TriangleTree(std::vector<Triangle> triangles)
+    : triangles_(std::move(triangles)), tree_(triangles_, box_of) {}
 
 std::optional<TriangleTree::Nearest> TriangleTree::nearest(const Vec3& at, double within) const {
   std::optional<Nearest> best;
@@ -247,7 +240,7 @@ std::optional<double> Box::way_to(const BallPath& ball) const {
   return enters <= leaves ? std::optional(enters) : std::nullopt;
 }
 
-BoxTree::BoxTree(const std::vector<Box>& boxes, std::vector<std::uint32_t>& order) {
+std::vector<BoxTree::Item> BoxTree::build(const std::vector<Box>& boxes) {
   std::vector<Item> items;
   items.reserve(boxes.size());
   for (const Box& box : boxes) {
@@ -259,9 +252,7 @@ BoxTree::BoxTree(const std::vector<Box>& boxes, std::vector<std::uint32_t>& orde
   nodes_.reserve(boxes.size());
   if (!items.empty()) build(boxes, items, 0, static_cast<std::uint32_t>(items.size()));
   nodes_.shrink_to_fit();
-  order.clear();
-  order.reserve(items.size());
-  for (const Item& item : items) order.push_back(item.box);
+  return items;
 }
 
 void BoxTree::build(const std::vector<Box>& boxes, std::vector<Item>& items, std::uint32_t begin,

@@ -17,7 +17,7 @@ std::optional<double> contact(const Triangle& triangle, const BallPath& ball);
 class TriangleTree {
  public:
   /// @pre at least one triangle.
-  explicit TriangleTree(const std::vector<Triangle>& triangles);
+  explicit TriangleTree(std::vector<Triangle> triangles);
 
   struct Nearest {
     Vec3 point;
@@ -43,8 +43,8 @@ class TriangleTree {
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
  private:
-  BoxTree tree_;
   std::vector<Triangle> triangles_;  ///< in the tree's order
+  BoxTree tree_;
 };
 
 // stl_file.cpp

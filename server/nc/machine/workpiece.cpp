@@ -93,16 +93,8 @@ struct Workpiece::Part {
 };
 
 void Workpiece::Part::complete() {
-  std::vector<Box> boxes;
-  for (const Cut& cut : cuts) {
-    boxes.push_back(cut.bore->box());
-    roughness = std::max(roughness, cut.bore->roughness());
-  }
-  std::vector<std::uint32_t> order;
-  tree = BoxTree(boxes, order);
-  std::vector<Cut> ordered;
-  for (const std::uint32_t place : order) ordered.push_back(cuts[place]);
-  cuts = std::move(ordered);
+  for (const Cut& cut : cuts) roughness = std::max(roughness, cut.bore->roughness());
+  tree = BoxTree(cuts, [](const Cut& cut) { return cut.bore->box(); });
 }
 
 /// The distance to solid less voids is at least that to the solid and that to the boundary of every
@@ -225,18 +217,12 @@ void Workpiece::join(const Added& feature) {
 Workpiece::Workpiece(const std::vector<Feature>& features) {
   for (const Feature& feature : features)
     std::visit([this](const auto& known) { join(known); }, feature);
-  std::vector<Box> boxes;
-  for (Part& part : parts_) {
-    part.complete();
-    boxes.push_back(part.solid.box);
-    // A touching ball may be beside it by a rounding.
-    boxes.back().grow(tolerance::kSamePoint);
-  }
-  std::vector<std::uint32_t> order;
-  tree_ = BoxTree(boxes, order);
-  std::vector<Part> ordered;
-  for (const std::uint32_t place : order) ordered.push_back(std::move(parts_[place]));
-  parts_ = std::move(ordered);
+  for (Part& part : parts_) part.complete();
+  tree_ = BoxTree(parts_, [](const Part& part) {
+    Box box = part.solid.box;
+    box.grow(tolerance::kSamePoint);  // a touching ball may be beside it by a rounding
+    return box;
+  });
 }
 
 Workpiece::Workpiece(Workpiece&&) noexcept = default;
