@@ -160,10 +160,6 @@ class TracingMachine final : public SimulatedMachine {
     SimulatedMachine::stop(reason);
     write(MachineResult<void>(), [&] { return fmt::format("STOP {}", reason); });
   }
-  void message(std::string_view text) override {
-    SimulatedMachine::message(text);
-    write(MachineResult<void>(), [&] { return fmt::format("MESSAGE {}", text); });
-  }
 
  private:
   static std::string text_of(const auto&... values) { return trace_text::text_of(values...); }

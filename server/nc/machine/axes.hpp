@@ -77,9 +77,6 @@ class Axes {
 
   /// A programmed stop: waits for NC Start.
   virtual void stop(std::string_view reason) = 0;
-
-  /// Shows a text to the operator.
-  virtual void message(std::string_view text) = 0;
 };
 
 }  // namespace fitgauge::machine

@@ -179,9 +179,6 @@ class Machine {
   /// A programmed stop (STOP, M0, M1): the machine waits for NC Start.
   virtual void stop(std::string_view reason) { axes_->stop(reason); }
 
-  /// Shows a text to the operator.
-  virtual void message(std::string_view text) { axes_->message(text); }
-
  private:
   /// A traced move in progress: its start.
   struct Begun {

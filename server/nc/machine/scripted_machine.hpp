@@ -57,7 +57,6 @@ class ScriptedAxes final : public Axes {
   }
   MachineResult<void> dwell(double, Allowance&) override { return {}; }
   void stop(std::string_view) override {}
-  void message(std::string_view) override {}
 
  private:
   Position nose_;

@@ -25,7 +25,6 @@ class SimulatedAxes final : public Axes {
   bool has_entered_part() const override { return has_entered_part_; }
   MachineResult<void> dwell(double, Allowance&) override { return {}; }
   void stop(std::string_view) override {}
-  void message(std::string_view) override {}
 
  private:
   /// The tool in the spindle as it really is.

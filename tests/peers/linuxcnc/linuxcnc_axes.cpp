@@ -116,11 +116,9 @@ MachineResult<void> LinuxcncAxes::dwell(double seconds, Allowance& allowance) {
   return reply ? MachineResult<void>() : reply.error();
 }
 
-void LinuxcncAxes::stop(std::string_view reason) { message(reason); }
-
-void LinuxcncAxes::message(std::string_view text) {
+void LinuxcncAxes::stop(std::string_view reason) {
   Allowance unlimited;
-  std::string line(text);
+  std::string line(reason);
   for (char& c : line) c = c == '\n' || c == '(' || c == ')' ? ' ' : c;
   ask("message " + line, unlimited).has_value();
 }

@@ -20,7 +20,6 @@ class LinuxcncAxes final : public machine::Axes {
                                                   const machine::Motion& motion) override;
   machine::MachineResult<void> dwell(double seconds, Allowance& allowance) override;
   void stop(std::string_view reason) override;
-  void message(std::string_view text) override;
 
  private:
   /// What the bridge says about a motion, and where the axes stand after it.

@@ -36,7 +36,6 @@ class RecordingAxes final : public Axes {
     return fault ? MachineResult<void>(make_fault(*fault)) : MachineResult<void>();
   }
   void stop(std::string_view) override {}
-  void message(std::string_view) override {}
 
   AxesCapabilities able;
   std::optional<FaultKind> fault;

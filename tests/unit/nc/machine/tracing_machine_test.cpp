@@ -32,7 +32,6 @@ void run(Machine& machine) {
   CHECK(ok(machine.probe({{0, 0, -1}, 20, 120, CoordinateSystem::Input, std::nullopt, {}})));
   CHECK_FALSE(machine.move(to({26, 28, -1}, Feed::at(600))).has_value());
   CHECK(ok(machine.dwell(0.5)));
-  machine.message("GOOD");
   machine.stop("M0");
 }
 
@@ -139,7 +138,6 @@ TEST_CASE("each command writes a line") {
       ("L X+26.0000 Y+28.0000 Z+0.0000 F600 ! Touch probe collision: the ball stands at "
        "X+26.0000 Y+28.0000 Z+2.2500"),
       "DWELL 0.5",
-      "MESSAGE GOOD",
       "STOP M0",
       "PRESET ROW 4 X+1.0000 Y+2.0000 Z+3.0000 SPA+0.0000 SPB+0.0000 SPC+0.0000",
       "PRESET 4",
