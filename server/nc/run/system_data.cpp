@@ -88,7 +88,8 @@ Answer tool_data(const MachineState& state, const Address& address) {
   }
 }
 
-double offset_of(const machine::PresetFrame& frame, Axis axis) {
+/// The offset of an axis in a preset.
+decltype(auto) offset_of(auto& frame, Axis axis) {
   const std::size_t i = index(axis);
   return is_rotary(axis) ? frame.rotary_offsets_deg[i - 3] : frame.origin[i];
 }
@@ -171,12 +172,7 @@ NcResult<void> write_preset(Channel& channel, const Address& address, double val
   const machine::Preset* found = channel.state().presets.find(address.nr);
   machine::Preset preset = found != nullptr ? *found : machine::Preset{};
   preset.number = address.nr;
-  const std::size_t i = index(*axis);
-  if (is_rotary(*axis)) {
-    preset.frame.rotary_offsets_deg[i - 3] = value;
-  } else {
-    preset.frame.origin[i] = value;
-  }
+  offset_of(preset.frame, *axis) = value;
   return channel.machine().write_preset(preset);
 }
 
