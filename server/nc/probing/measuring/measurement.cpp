@@ -141,26 +141,20 @@ CycleResult<void> finish_measurement(const CycleContext& context, const Measurem
 }
 
 std::array<MeasuredValue, 2> centre_values(const Arguments& arguments, const Vec3& centre) {
-  const Length main = to_length(arguments.number(273));
-  const Length secondary = to_length(arguments.number(274));
-  return {MeasuredValue{.characteristic = "Centre, main axis",
-                        .role = ValueRole::Position,
-                        .nominal = main,
-                        .measured = to_length(centre.x),
-                        .limits = position_limits(main, to_length(arguments.number(279))),
-                        .result_q = 151,
-                        .deviation_q = 161,
-                        .error_too_large = 1044,
-                        .error_too_small = 1044},
-          MeasuredValue{.characteristic = "Centre, secondary axis",
-                        .role = ValueRole::Position,
-                        .nominal = secondary,
-                        .measured = to_length(centre.y),
-                        .limits = position_limits(secondary, to_length(arguments.number(280))),
-                        .result_q = 152,
-                        .deviation_q = 162,
-                        .error_too_large = 1045,
-                        .error_too_small = 1045}};
+  const auto value = [&](int axis, std::string_view characteristic) {
+    const Length nominal = to_length(arguments.number(273 + axis));
+    return MeasuredValue{
+        .characteristic = characteristic,
+        .role = ValueRole::Position,
+        .nominal = nominal,
+        .measured = to_length(centre[static_cast<std::size_t>(axis)]),
+        .limits = position_limits(nominal, to_length(arguments.number(279 + axis))),
+        .result_q = static_cast<std::uint16_t>(151 + axis),
+        .deviation_q = static_cast<std::uint16_t>(161 + axis),
+        .error_too_large = 1044 + axis,
+        .error_too_small = 1044 + axis};
+  };
+  return {value(0, "Centre, main axis"), value(1, "Centre, secondary axis")};
 }
 
 }  // namespace fitgauge::probing

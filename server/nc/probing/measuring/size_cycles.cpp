@@ -22,12 +22,11 @@ constexpr std::array k422Parameters =
 constexpr std::string_view kNotSimulated =
     "Turning tools, which Q498 and Q531 concern: the values are checked and change nothing.";
 
-CycleResult<void> measure_circle(const CycleContext& context, Side side) {
-  const bool inside = side == Side::Inside;
-  const auto limits = TRY(inside ? size_limits(context, 275, 276) : size_limits(context, 277, 278));
-  auto motion = TRY(begin_measurement(context));
-  const auto probed = TRY(probe_circle(context, motion, side, place_of(context, 273, 274, 261)));
-
+/// Ends the measurement of a diameter and its centre. The place of holes does not depend on the
+/// tool's radius: without `is_cut` the tool is only watched for breakage.
+CycleResult<void> finish_circle(const CycleContext& context, Side side, const ProbedCircle& probed,
+                                const std::optional<Limits>& limits, int error_too_large,
+                                int error_too_small, bool is_cut) {
   const MeasuredValue diameter{.characteristic = "Diameter",
                                .role = size_role(side),
                                .nominal = to_length(context.number(262)),
@@ -35,12 +34,23 @@ CycleResult<void> measure_circle(const CycleContext& context, Side side) {
                                .limits = limits,
                                .result_q = 153,
                                .deviation_q = 163,
-                               .error_too_large = inside ? 1047 : 1049,
-                               .error_too_small = inside ? 1046 : 1048};
+                               .error_too_large = error_too_large,
+                               .error_too_small = error_too_small};
   const auto [centre_main, centre_secondary] = centre_values(context, probed.circle.centre);
-  return finish_measurement(context, {.values = {centre_main, centre_secondary, diameter},
-                                      .correction = radius_correction(diameter),
-                                      .form = probed.form});
+  return finish_measurement(
+      context, {.values = {centre_main, centre_secondary, diameter},
+                .correction = is_cut ? radius_correction(diameter)
+                                     : ToolCorrection{.deviation = diameter.deviation()},
+                .form = probed.form});
+}
+
+CycleResult<void> measure_circle(const CycleContext& context, Side side) {
+  const bool inside = side == Side::Inside;
+  const auto limits = TRY(inside ? size_limits(context, 275, 276) : size_limits(context, 277, 278));
+  auto motion = TRY(begin_measurement(context));
+  const auto probed = TRY(probe_circle(context, motion, side, place_of(context, 273, 274, 261)));
+  return finish_circle(context, side, probed, limits, inside ? 1047 : 1049, inside ? 1046 : 1048,
+                       true);
 }
 
 constexpr std::array k423Parameters =
@@ -212,22 +222,7 @@ CycleResult<void> measure_bolt_circle(const CycleContext& context) {
   const auto limits = TRY(size_limits(context, 288, 289));
   auto motion = TRY(begin_measurement(context));
   const auto probed = TRY(probe_bolt_circle(context, motion));
-
-  const MeasuredValue diameter{.characteristic = "Diameter",
-                               .role = ValueRole::HoleSize,
-                               .nominal = to_length(context.number(262)),
-                               .measured = to_length(2 * probed.circle.radius),
-                               .limits = limits,
-                               .result_q = 153,
-                               .deviation_q = 163,
-                               .error_too_large = 1062,
-                               .error_too_small = 1063};
-  const auto [centre_main, centre_secondary] = centre_values(context, probed.circle.centre);
-  // The place of holes does not depend on the tool's radius: the tool is only watched for breakage.
-  return finish_measurement(context,
-                            {.values = {centre_main, centre_secondary, diameter},
-                             .correction = ToolCorrection{.deviation = diameter.deviation()},
-                             .form = probed.form});
+  return finish_circle(context, Side::Inside, probed, limits, 1062, 1063, false);
 }
 
 constexpr TouchProbeCycle kCycles[] = {

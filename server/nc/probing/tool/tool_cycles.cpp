@@ -93,17 +93,8 @@ constexpr std::array k481Results{kLengthDeviation, kToolStatus};
 constexpr std::array k482Results{kRadiusDeviation, kToolStatus};
 constexpr std::array k483Results{kLengthDeviation, kRadiusDeviation, kToolStatus};
 
-/// Request of the block, in both of its forms.
-struct ToolOrder {
-  ToolMode mode;
-  double clearance_height;
-  bool single_teeth;
-};
-
-ToolOrder tool_order_of(const Arguments& arguments) {
-  return {static_cast<ToolMode>(arguments.number(ParameterId::WordCheck, 340)),
-          arguments.number(ParameterId::WordHeight, 260),
-          arguments.number(ParameterId::WordTeeth, 341) != 0};
+ToolMode mode_of(const Arguments& arguments) {
+  return static_cast<ToolMode>(arguments.number(ParameterId::WordCheck, 340));
 }
 
 Dimension length_of(Tool& tool) {
@@ -117,7 +108,7 @@ Dimension radius_of(Tool& tool) {
 /// stands for each tooth.
 CycleResult<std::vector<Spindle>> touches_of(const CycleContext& context, bool turns) {
   std::vector<Spindle> touches{turns ? Spindle::Turns : Spindle::Stands};
-  if (!tool_order_of(context).single_teeth) return touches;
+  if (context.number(ParameterId::WordTeeth, 341) == 0) return touches;
   const Tool& tool = *context.state().active_tool();
   constexpr int kMostTeeth = 20;
   if (tool.teeth < 1 || tool.teeth > kMostTeeth)
@@ -159,12 +150,12 @@ CycleResult<void> finish(const CycleContext& context, const Tool& tool, ToolStat
     context.host.set_q(static_cast<std::uint16_t>(context.number(ParameterId::WordResult)),
                        static_cast<double>(status), Unit::None);
   }
-  return write_measured(context, tool_order_of(context).mode, tool, status);
+  return write_measured(context, mode_of(context), tool, status);
 }
 
 CycleResult<void> measure(const CycleContext& context, bool length, bool radius) {
-  auto probing = TRY(ToolProbing::begin(context, tool_order_of(context).clearance_height));
-  const ToolMode mode = tool_order_of(context).mode;
+  auto probing = TRY(ToolProbing::begin(context, context.number(ParameterId::WordHeight, 260)));
+  const ToolMode mode = mode_of(context);
   Tool tool = *context.state().active_tool();
   ToolStatus status = ToolStatus::WithinTolerance;
   if (length) {
@@ -228,7 +219,7 @@ CycleResult<Tip> touch_tip(ToolProbing& probing, const machine::MachineState& st
 
 CycleResult<void> measure_lathe_tool(const CycleContext& context) {
   auto probing = TRY(ToolProbing::begin_lathe(context, context.number(260)));
-  const auto mode = static_cast<ToolMode>(context.whole(340));
+  const ToolMode mode = mode_of(context);
   const auto tip = TRY(touch_tip(probing, context.state()));
   TRY(probing.retract());
   machine::Tool tool = *context.state().active_tool();
