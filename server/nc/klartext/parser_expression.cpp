@@ -59,8 +59,9 @@ Expr parse_alone(BlockReader& in) {
     return inner;
   }
   if (in.accept_word("PI")) return in.add_node(Operator::Pi, {});
-  Expr function;
-  if (parse_string_function(in, function)) return function;
+  for (const StringFunction& function : kStringFunctions) {
+    if (in.accept_word(function.name)) return parse_arguments(in, function);
+  }
   if (const auto op = accept_name(in, kFunctions, Operator::Sq)) {
     in.enter();
     const Expr argument = parse_typed(in, false, parse_signed);
@@ -122,16 +123,6 @@ Expr parse_sum(BlockReader& in) {
 }
 
 }  // namespace
-
-bool parse_string_function(BlockReader& in, Expr& value) {
-  for (const StringFunction& function : kStringFunctions) {
-    if (in.accept_word(function.name)) {
-      value = parse_arguments(in, function);
-      return true;
-    }
-  }
-  return false;
-}
 
 Expr parse_formula(BlockReader& in) {
   const char* begin = in.skip_blanks();

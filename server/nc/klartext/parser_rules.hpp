@@ -16,9 +16,6 @@ Expr parse_number(BlockReader& in);
 /// A quoted text or a QS parameter.
 Expr parse_string(BlockReader& in);
 
-/// Reads a function of texts with its arguments; false if no name of one is next.
-bool parse_string_function(BlockReader& in, Expr& value);
-
 // parser_function.cpp
 /// A file: quoted, bare up to `stop` or the end, a QS parameter (`QS1`, `:'QS1'`), or bare with
 /// QS parameters inside (`TNC:\:'QS1'.H`).

@@ -85,6 +85,27 @@ CycleResult<void> write_datum_table(const CycleContext& context, const PresetFra
                                    : replace_active_preset(context.machine, turned);
 }
 
+/// Writes the datum as Q303 and Q305 say. Q305 = 0: row 0 of the preset table becomes the active
+/// preset with the new datum. Otherwise it is only stored: with Q303 = 1 in that row of the preset
+/// table (a row that does not exist yet begins as the active one), with Q303 = 0 in that row of the
+/// active datum table, relative to the active preset. Axes that are not named keep their value.
+/// The zero moves along the axes of a tilted plane, so that the point reads the datum there
+/// (decision 25). `turn_deg` is the angle of the part to the main axis: the basic rotation turns by
+/// it around the probe axis; a datum table has none, so there the active preset turns at once.
+/// @errors 1043 no datum table is active, 1085 the row is write-protected.
+CycleResult<void> transfer_datum(const CycleContext& context, const WorkingPlane& plane,
+                                 std::span<const DatumPoint> points,
+                                 std::optional<double> turn_deg = std::nullopt) {
+  const machine::Frames& frames = context.state().frames;
+  std::vector<DatumPoint> found;
+  for (const DatumPoint& point : points) found.push_back(basic_of(frames, plane, point));
+  PresetFrame turned = frames.preset();
+  if (turn_deg) turned.basic_rotation_deg = turned_rotation(frames, plane, *turn_deg);
+  const bool datum_table = context.whole(303) == 0 && context.whole(305) != 0;
+  return datum_table ? write_datum_table(context, turned, found)
+                     : write_preset(context, turned, found);
+}
+
 }  // namespace
 
 void publish_circle(const CycleContext& context, Side side, const ProbedCircle& probed) {
@@ -112,19 +133,6 @@ CycleResult<ProbingMotion> begin_preset(const CycleContext& context) {
   TRY(refuse_mirror_and_scaling(context.state().frames));
   TRY(check_transfer(context));
   return ProbingMotion::begin(context);
-}
-
-CycleResult<void> transfer_datum(const CycleContext& context, const WorkingPlane& plane,
-                                 std::span<const DatumPoint> points,
-                                 std::optional<double> turn_deg) {
-  const machine::Frames& frames = context.state().frames;
-  std::vector<DatumPoint> found;
-  for (const DatumPoint& point : points) found.push_back(basic_of(frames, plane, point));
-  PresetFrame turned = frames.preset();
-  if (turn_deg) turned.basic_rotation_deg = turned_rotation(frames, plane, *turn_deg);
-  const bool datum_table = context.whole(303) == 0 && context.whole(305) != 0;
-  return datum_table ? write_datum_table(context, turned, found)
-                     : write_preset(context, turned, found);
 }
 
 CycleResult<void> correct_preset(const CycleContext& context, const WorkingPlane& plane,
