@@ -5,15 +5,6 @@
 namespace fitgauge::klartext {
 namespace {
 
-/// Comments may precede BEGIN PGM.
-const BeginProgram* begin_of(const std::vector<Block>& blocks) {
-  for (const Block& block : blocks) {
-    if (const auto* begin = block.as<BeginProgram>()) return begin;
-    if (!block.is<Empty>()) break;
-  }
-  return nullptr;
-}
-
 template <class T>
 std::size_t bytes_of(const std::vector<T>& pool) {
   return sizeof(T) * pool.size();
@@ -87,13 +78,11 @@ std::string_view Program::line(std::uint32_t number) const {
 }
 
 Unit Program::unit() const {
-  const BeginProgram* begin = begin_of(parts_.blocks);
-  return begin != nullptr ? begin->unit : Unit::Millimetre;
-}
-
-std::string_view Program::name() const {
-  const BeginProgram* begin = begin_of(parts_.blocks);
-  return begin != nullptr ? text(begin->name) : std::string_view();
+  for (const Block& block : parts_.blocks) {
+    if (const auto* begin = block.as<BeginProgram>()) return begin->unit;
+    if (!block.is<Empty>()) break;  // comments may precede BEGIN PGM
+  }
+  return Unit::Millimetre;
 }
 
 std::string decode_source(std::string bytes) {

@@ -72,7 +72,6 @@ class Program {
 
   /// Unit of BEGIN PGM.
   Unit unit() const;
-  std::string_view name() const;
 
   std::string_view text(Text text) const {
     return std::string_view(parts_.texts).substr(text.first, text.size);

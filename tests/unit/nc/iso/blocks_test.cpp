@@ -32,7 +32,9 @@ void check(std::initializer_list<Twin> twins) {
 TEST_CASE("The first and the last line give name and unit") {
   const auto parsed = parse_program("%A b-1 G70 *\nN9999 %A b-1 G70 *\nrest", "a.i");
   CHECK_FALSE(parsed.has_errors());
-  CHECK(parsed.program.name() == "A b-1");
+  const auto* begin = parsed.program.blocks().front().as<klartext::BeginProgram>();
+  REQUIRE(begin != nullptr);
+  CHECK(parsed.program.text(begin->name) == "A b-1");
   CHECK(parsed.program.unit() == klartext::Unit::Inch);
   CHECK(parsed.program.source() == "%A b-1 G70 *\nN9999 %A b-1 G70 *\nrest");
 }

@@ -30,17 +30,18 @@ TEST_CASE("Line ends become LF") {
   CHECK(decode_source("\x80") == "\xE2\x82\xAC");
 }
 
-TEST_CASE("A program knows its name, unit and lines") {
+TEST_CASE("A program knows its unit and lines") {
   const ParsedProgram parsed =
       parse_program(";first\nBEGIN PGM A b-1 INCH \nEND PGM A b-1 INCH\n", "a.h");
   CHECK(parsed.diagnostics.empty());
-  CHECK(parsed.program.name() == "A b-1");
+  const auto* begin = parsed.program.blocks()[1].as<BeginProgram>();
+  REQUIRE(begin != nullptr);
+  CHECK(parsed.program.text(begin->name) == "A b-1");
   CHECK(parsed.program.unit() == Unit::Inch);
   CHECK(parsed.program.file_name() == "a.h");
   CHECK(parsed.program.line(2) == "BEGIN PGM A b-1 INCH ");
   CHECK(parsed.program.line(0).empty());
   CHECK(parsed.program.line(99).empty());
-  CHECK(Program().name().empty());
   CHECK(Program().unit() == Unit::Millimetre);
 }
 
