@@ -228,7 +228,7 @@ Outcome<ReadProgram> read_program(const Context& context, const std::string& fil
 Outcome<std::string> text_of(const std::string& file, iso::Conversion converted) {
   for (const Diagnostic& found : converted.findings)
     fmt::print(stderr, "{}\n", klartext::render(found));
-  if (!klartext::contains_error(converted.findings)) return std::move(converted.text);
+  if (!klartext::has_errors(converted.findings)) return std::move(converted.text);
   return Failure{ExitCode::ProgramFailed,
                  file + " has blocks that DIN/ISO cannot express: nothing was written"};
 }

@@ -62,7 +62,7 @@ Outcome<LocalRun> check_and_run(RunOptions options, bool is_run, bool follows) {
   if (!found) return Failure{ExitCode::LocalFile, file + ": " + found.error().message};
   local.found = *std::move(found);
   for (klartext::Diagnostic& each : local.found) each.program = disk.name_here(each.program);
-  if (!is_run || interpreter::has_errors(local.found)) return local;
+  if (!is_run || klartext::has_errors(local.found)) return local;
   const SystemClock clock;
   const app::RunFormat format = api::run_format();
   local.report = {.program = file, .seed = order->setup.seed, .created_at = clock.now()};

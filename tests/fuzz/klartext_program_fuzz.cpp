@@ -19,7 +19,7 @@ void take(std::string_view bytes) {
   require(!again.has_errors() && again.program == parsed.program);
   // A block without a form in DIN/ISO is an error of the conversion.
   const auto converted = fitgauge::iso::to_iso(parsed.program, {});
-  if (contains_error(converted.findings)) return;
+  if (has_errors(converted.findings)) return;
   const ParsedProgram there = fitgauge::iso::parse_program(converted.text, "printed.i");
   require(!there.has_errors());
   require(format_program(there.program) == format_program(parsed.program));

@@ -44,7 +44,7 @@ Result<std::shared_ptr<app::ActiveRun>> start(const Services& services,
                                               const std::string& setup) {
   auto order = TRY(read_order(services, program.text(), setup));
   const auto diagnostics = TRY(services.runs.check_program(order.program));
-  if (interpreter::has_errors(diagnostics, order.options.keeps_unreadable))
+  if (klartext::has_errors(diagnostics, order.options.keeps_unreadable))
     return Error{ErrorCode::ProgramInvalid, program.text() + " or a program it calls has errors"};
   return services.runs.start(std::move(order), std::nullopt,
                              [](const app::ActiveRun&) { return app::Answer{}; });
@@ -158,7 +158,7 @@ Result<void> start(const SharedPosting& posting) {
       error.details.push_back({error.code, error.message, "/program"});
     return error;
   }
-  if (interpreter::has_errors(*diagnostics, order.options.keeps_unreadable)) {
+  if (klartext::has_errors(*diagnostics, order.options.keeps_unreadable)) {
     posting->responder.answer(
         invalid_program(posting->request, order.program.text(), *diagnostics));
     return {};

@@ -102,12 +102,8 @@ void drop_later_findings(std::vector<Diagnostic>& diagnostics,
 
 klartext::ParsedProgram parse_iso(std::string source, std::string name) {
   Translation translation = translate(source);
-  if (translation.is_too_large) {
-    return {{},
-            {{.code = DiagnosticCode::ProgramTooLarge,
-              .message = klartext::too_much_memory(),
-              .program = std::move(name)}}};
-  }
+  if (translation.is_too_large)
+    return {{}, klartext::too_large(klartext::too_much_memory(), std::move(name))};
   auto parsed = klartext::parse_program(std::move(translation.klartext), name);
   const Origin origin(source, translation, parsed.program.source());
   drop_later_findings(parsed.diagnostics, translation.lines);

@@ -40,8 +40,17 @@ std::string_view word(Severity severity) { return word_of(severity, {"note", "wa
 
 std::string_view id(DiagnosticCode code) { return word_of(code, kIds); }
 
-bool contains_error(const std::vector<Diagnostic>& diagnostics) {
-  return std::ranges::count(diagnostics, Severity::Error, &Diagnostic::severity) > 0;
+bool has_errors(const std::vector<Diagnostic>& diagnostics, bool keeps_unreadable) {
+  return std::ranges::any_of(diagnostics, [=](const Diagnostic& diagnostic) {
+    return diagnostic.severity == Severity::Error &&
+           !(keeps_unreadable && diagnostic.is_unreadable);
+  });
+}
+
+std::vector<Diagnostic> too_large(std::string message, std::string name) {
+  return {{.code = DiagnosticCode::ProgramTooLarge,
+           .message = std::move(message),
+           .program = std::move(name)}};
 }
 
 std::string render(const Diagnostic& diagnostic) {

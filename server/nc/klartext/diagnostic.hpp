@@ -62,8 +62,12 @@ struct Diagnostic {
 /// must stay small.
 std::string_view shown(std::string_view line);
 
-/// Returns whether one of them refuses the text.
-bool contains_error(const std::vector<Diagnostic>& diagnostics);
+/// Returns whether one of them refuses the text. @param keeps_unreadable lines that are no Klartext
+/// are ERROR blocks and no errors (decision 32).
+bool has_errors(const std::vector<Diagnostic>& diagnostics, bool keeps_unreadable = false);
+
+/// The findings of a text that is too large to be read.
+std::vector<Diagnostic> too_large(std::string message, std::string name);
 
 /// The finding as text of three lines:
 /// `8255.h:14:9: error: label 5 is not defined [label.unknown]`, the line, and a caret below it.

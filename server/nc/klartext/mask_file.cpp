@@ -269,14 +269,10 @@ class MaskParser {
 }  // namespace
 
 ParsedMask parse_mask(std::string bytes, std::string name) {
-  if (bytes.size() > kLargestMask) {
-    ParsedMask refused;
-    refused.diagnostics.push_back(
-        {.code = DiagnosticCode::ProgramTooLarge,
-         .message = fmt::format("the mask has more than {} bytes", kLargestMask),
-         .program = std::move(name)});
-    return refused;
-  }
+  if (bytes.size() > kLargestMask)
+    return {
+        {},
+        too_large(fmt::format("the mask has more than {} bytes", kLargestMask), std::move(name))};
   return MaskParser(decode_source(std::move(bytes)), std::move(name)).parse();
 }
 

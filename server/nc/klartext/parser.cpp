@@ -244,7 +244,7 @@ std::string too_much_memory() {
       kMostMemory >> 20);
 }
 
-bool ParsedProgram::has_errors() const { return contains_error(diagnostics); }
+bool ParsedProgram::has_errors() const { return klartext::has_errors(diagnostics); }
 
 const Diagnostic* ParsedProgram::not_printed() const {
   const auto found = std::ranges::find_if(diagnostics, [](const Diagnostic& each) {
@@ -256,16 +256,14 @@ const Diagnostic* ParsedProgram::not_printed() const {
 ParsedProgram parse_program(std::string bytes, std::string name) {
   if (bytes.size() > kLargestSource) {
     return {{},
-            {{.code = DiagnosticCode::ProgramTooLarge,
-              .message = fmt::format("the program has more than {} bytes", kLargestSource),
-              .program = std::move(name)}}};
+            too_large(fmt::format("the program has more than {} bytes", kLargestSource),
+                      std::move(name))};
   }
   std::string source = decode_source(std::move(bytes));
   if (count_lines(source) > kMostLines) {
-    return {{},
-            {{.code = DiagnosticCode::ProgramTooLarge,
-              .message = fmt::format("the program has more than {} lines", kMostLines),
-              .program = std::move(name)}}};
+    return {
+        {},
+        too_large(fmt::format("the program has more than {} lines", kMostLines), std::move(name))};
   }
   return Parser(std::move(source), std::move(name)).parse();
 }

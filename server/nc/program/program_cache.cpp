@@ -194,11 +194,4 @@ Result<std::vector<Diagnostic>> check(const ControlPath& program, const ControlD
   return walk.take();
 }
 
-bool has_errors(const std::vector<Diagnostic>& diagnostics, bool keeps_unreadable) {
-  return std::ranges::any_of(diagnostics, [=](const Diagnostic& diagnostic) {
-    return diagnostic.severity == Severity::Error &&
-           !(keeps_unreadable && diagnostic.is_unreadable);
-  });
-}
-
 }  // namespace fitgauge::interpreter

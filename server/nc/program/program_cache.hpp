@@ -77,7 +77,4 @@ class ProgramCache {
 Result<std::vector<Diagnostic>> check(const ControlPath& program, const ControlDisk& disk,
                                       ProgramCache& programs, Allowance& allowance);
 
-/// @param keeps_unreadable lines that are no Klartext are ERROR blocks and no errors (decision 32).
-bool has_errors(const std::vector<Diagnostic>& diagnostics, bool keeps_unreadable = false);
-
 }  // namespace fitgauge::interpreter

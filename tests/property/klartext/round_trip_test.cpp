@@ -71,7 +71,7 @@ TEST_CASE("What converts to DIN/ISO is the same program there") {
     const auto conversion = iso::to_iso(parsed.program, ".H");
     CAPTURE(text);
     CAPTURE(conversion.text);
-    if (contains_error(conversion.findings)) continue;
+    if (has_errors(conversion.findings)) continue;
     ++converted;
     const ParsedProgram there = iso::parse_program(conversion.text, "generated.i");
     REQUIRE_FALSE(there.has_errors());

@@ -142,7 +142,7 @@ TEST_CASE("A value without a placeholder is a warning, and the line stays") {
   const ParsedMask mask = parsed("\"a\", Q1;");
   REQUIRE(mask.diagnostics.size() == 1);
   CHECK(mask.diagnostics[0].code == DiagnosticCode::MaskValueUnused);
-  CHECK_FALSE(contains_error(mask.diagnostics));
+  CHECK_FALSE(has_errors(mask.diagnostics));
   CHECK(mask.mask.lines.size() == 1);
 }
 
@@ -152,8 +152,8 @@ TEST_CASE("A mask beyond the limit is refused") {
   const ParsedMask refused = parse_mask(text, "m.a");
   REQUIRE(refused.diagnostics.size() == 1);
   CHECK(refused.diagnostics[0].code == DiagnosticCode::ProgramTooLarge);
-  CHECK_FALSE(contains_error(
-      parse_mask(text.substr(0, kLargestMask - kLargestMask % 4), "m.a").diagnostics));
+  CHECK_FALSE(
+      has_errors(parse_mask(text.substr(0, kLargestMask - kLargestMask % 4), "m.a").diagnostics));
 }
 
 TEST_CASE("Masks come in UTF-8 with a byte order mark and in Windows-1252") {
