@@ -19,7 +19,7 @@ constexpr std::string_view kBeforeCode = " \t/0123456789Nn";
 
 const CycleDescriptor* find_descriptor(CycleFamily family, int number) {
   if (family == CycleFamily::GlobalDef) return interpreter::global_definition(number);
-  if (const auto* probing = interpreter::probing_cycle(family, number)) return &probing->descriptor;
+  if (const auto* probing = probing::find_cycle(family, number)) return &probing->descriptor;
   const auto* machining =
       family == CycleFamily::CyclDef ? interpreter::machining_cycle(number) : nullptr;
   return machining == nullptr ? nullptr : &machining->descriptor;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/small_set.hpp"
+#include "nc/klartext/statement.hpp"
 #include "nc/machine/fault.hpp"
 
 namespace fitgauge::probing {
@@ -28,9 +29,8 @@ CycleFault tolerance_stop(int number);
 /// A set of the control's error numbers, 1000 to 1127.
 using ErrorSet = SmallSet<int, 1000>;
 
-/// First words of the block that defines the cycle. One number may mean two cycles: TCH PROBE 3
-/// measures, CYCL DEF 3 mills.
-enum class CycleFamily : std::uint8_t { CyclDef, TchProbe };
+/// Never GLOBAL DEF. One number may mean two cycles: TCH PROBE 3 measures, CYCL DEF 3 mills.
+using klartext::CycleFamily;
 
 enum class CycleKind : std::uint8_t {
   Measuring,    ///< 0, 1, 3, 4, 420 to 431, 444, 1400 to 1434: results, most with status and log

@@ -62,7 +62,7 @@ BoundCycle bind_cycle(const Program& program, const klartext::Cycle& cycle) {
   BoundCycle bound;
   if (cycle.family == klartext::CycleFamily::GlobalDef) {
     bound.global = global_definition(cycle.number);
-  } else if (const auto* probing = probing_cycle(cycle.family, cycle.number);
+  } else if (const auto* probing = find_cycle(cycle.family, cycle.number);
              probing != nullptr && !probing->descriptor.dotted) {
     bound.probing = probing;
   } else if (cycle.family == klartext::CycleFamily::CyclDef) {
@@ -129,18 +129,10 @@ const CycleDescriptor* other_cycle(const CycleDescriptor& cycle, std::string_vie
 }
 
 const CycleDescriptor* cycle_of(klartext::CycleFamily family, int number) {
-  if (const auto* cycle = probing_cycle(family, number)) return &cycle->descriptor;
+  if (const auto* cycle = find_cycle(family, number)) return &cycle->descriptor;
   if (family == klartext::CycleFamily::TchProbe) return nullptr;
   if (const auto* cycle = machining_cycle(number)) return &cycle->descriptor;
   return dotted_setting(number);
-}
-
-const TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number) {
-  if (family == klartext::CycleFamily::GlobalDef) return nullptr;
-  return probing::find_cycle(family == klartext::CycleFamily::TchProbe
-                                 ? probing::CycleFamily::TchProbe
-                                 : probing::CycleFamily::CyclDef,
-                             number);
 }
 
 const CycleDescriptor* dotted_setting(int number) {

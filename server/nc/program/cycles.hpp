@@ -6,7 +6,7 @@
 namespace fitgauge::interpreter {
 
 using probing::Arguments, probing::ArgumentValue, probing::CycleDescriptor, probing::CycleParameter,
-    probing::ParameterId, probing::TouchProbeCycle;
+    probing::find_cycle, probing::ParameterId, probing::TouchProbeCycle;
 
 // The machining cycles, for the linker, /v1/cycles and the run. They run as motion of the tool:
 // positions, depths and feeds as on the control; no material is removed.
@@ -102,9 +102,6 @@ const CycleDescriptor* other_cycle(const CycleDescriptor& cycle, std::string_vie
 /// The cycle that a block or a sub-line names, settings included, or null. GLOBAL DEF names no
 /// probing cycle.
 const CycleDescriptor* cycle_of(klartext::CycleFamily family, int number);
-
-/// The cycle of the probing library, or null.
-const TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number);
 
 /// A setting in sub-lines, such as `CYCL DEF 7.0`, `7.1`: 7 to 13, 19, 26, 32; null for another.
 const CycleDescriptor* dotted_setting(int number);

@@ -228,7 +228,7 @@ NcResult<Next> execute_parts(Channel& channel, std::uint32_t first, std::uint32_
   const auto& opening = std::get<klartext::CyclePart>(channel.program().blocks()[first].statement);
   if (!is_available(opening.family, opening.number, true))
     return run_builders(channel, opening.family, opening.number);
-  if (const auto* probing = probing_cycle(opening.family, opening.number)) {
+  if (const auto* probing = find_cycle(opening.family, opening.number)) {
     auto arguments = TRY(dotted_arguments(channel, *probing, first, last));
     TRY(run_probing(channel, *probing, std::move(arguments)));
   } else if (opening.number == 14) {
