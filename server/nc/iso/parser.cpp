@@ -118,9 +118,7 @@ klartext::ParsedProgram parse_iso(std::string source, std::string name) {
     if (const auto message = frame_message(diagnostic.code); !message.empty())
       diagnostic.message = message;
     const auto& unreadable = translation.unreadable;
-    const auto found =
-        std::lower_bound(unreadable.begin(), unreadable.end(), line,
-                         [](const auto& finding, std::size_t key) { return finding.line < key; });
+    const auto found = std::ranges::lower_bound(unreadable, line, {}, &Translation::Finding::line);
     if (found == unreadable.end() || found->line != line) continue;
     if (diagnostic.code == DiagnosticCode::TooManyDiagnostics) continue;
     diagnostic.code = found->code;

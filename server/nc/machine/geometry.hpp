@@ -100,7 +100,6 @@ class Transform {
   /// The point and the direction that come there.
   Vec3 point_before(const Vec3& p) const { return inverse_linear_ * p + inverse_offset_; }
   Vec3 direction_before(const Vec3& d) const { return inverse_linear_ * d; }
-  const Matrix3& linear() const { return linear_; }
 
   bool is_finite() const;
   Transform inverse() const { return {inverse_linear_, inverse_offset_, linear_, offset_}; }

@@ -83,10 +83,9 @@ void judge_by_uncertainty(MeasuringRecord& record);
 
 /// Cycle 441, modal until the program ends.
 struct FastProbing {
-  std::optional<double> positioning_feed;  ///< Q396, mm/min; nothing or 0: FMAX of the probe
-  bool machine_rapid = false;              ///< Q397: positions with the rapid of the machine
-  bool angle_tracking = true;              ///< Q399
-  bool interrupts = true;                  ///< Q400: Q281 = 2 stops the program
+  double positioning_feed = 0;  ///< Q396, mm/min; 0: FMAX of the probe
+  bool machine_rapid = false;   ///< Q397: positions with the rapid of the machine
+  bool interrupts = true;       ///< Q400: Q281 = 2 stops the program
 };
 
 /// Records of cycle 450, by name.

@@ -33,10 +33,6 @@ struct WorkingPlane {
   static WorkingPlane across(machine::Axis tool_axis) {
     return {(index(tool_axis) + 1) % 3, (index(tool_axis) + 2) % 3, tool_axis};
   }
-  /// The plane of two linear axes, in either order.
-  static WorkingPlane spanned_by(std::size_t a, std::size_t b) {
-    return across(static_cast<machine::Axis>(3 - a - b));
-  }
   bool contains(std::size_t axis) const { return axis == first || axis == second; }
   friend bool operator==(const WorkingPlane&, const WorkingPlane&) = default;
   Vec2 project(const machine::Vec3& point) const { return {point[first], point[second]}; }

@@ -86,7 +86,7 @@ class Positioning {
     const bool first = words_.axes[working.first].has_value();
     const bool second = words_.axes[working.second].has_value();
     if (!words_.axes[tool_axis] || first == second) return working;
-    return WorkingPlane::spanned_by(tool_axis, first ? working.first : working.second);
+    return WorkingPlane::across(static_cast<Axis>(first ? working.second : working.first));
   }
 
   bool is_polar() const { return klartext::words_of(motion_.path).contains(Letter::Pr); }

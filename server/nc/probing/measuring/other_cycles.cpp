@@ -116,12 +116,9 @@ constexpr std::array k441Parameters =
          newer(choice(371, "Reaction of the touch point", 0, 1, 0)));
 
 CycleResult<void> set_fast_probing(const CycleContext& context) {
-  FastProbing fast{.positioning_feed = std::nullopt,
-                   .machine_rapid = context.whole(397) == 1,
-                   .angle_tracking = context.whole(399) == 1,
-                   .interrupts = context.whole(400) == 1};
-  if (context.number(396) > 0) fast.positioning_feed = context.number(396);
-  context.host.memory().fast_probing = fast;
+  context.host.memory().fast_probing = {.positioning_feed = context.number(396),
+                                        .machine_rapid = context.whole(397) == 1,
+                                        .interrupts = context.whole(400) == 1};
   return {};
 }
 

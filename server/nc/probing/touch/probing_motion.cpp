@@ -146,7 +146,7 @@ CycleResult<void> ProbingMotion::move_tip_to_height(double height) {
 Feed ProbingMotion::positioning_feed() const {
   const FastProbing& fast = context_.host.memory().fast_probing;
   if (fast.machine_rapid) return Feed::rapid();
-  if (fast.positioning_feed) return Feed::at(*fast.positioning_feed);
+  if (fast.positioning_feed > 0) return Feed::at(fast.positioning_feed);
   const bool machine_rapid = probe_.data.prepositioning == machine::PrePositioning::MachineRapid;
   return machine_rapid ? Feed::rapid() : Feed::rapid(probe_.data.rapid);
 }

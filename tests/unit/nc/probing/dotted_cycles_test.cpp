@@ -83,7 +83,7 @@ TEST_CASE("441 changes how later cycles position, until the program ends") {
   CHECK_FALSE(bench.host.cycle_memory.fast_probing.interrupts);
   bench.host.cycle_memory.end_program();
   CHECK(bench.host.cycle_memory.fast_probing.interrupts);
-  CHECK_FALSE(bench.host.cycle_memory.fast_probing.positioning_feed.has_value());
+  CHECK(bench.host.cycle_memory.fast_probing.positioning_feed == 0);
 }
 
 }  // namespace fitgauge::probing

@@ -123,7 +123,7 @@ Numbers modal_state(ProbingBench& bench) {
           zero.y,
           zero.z,
           state.frames.preset().basic_rotation_deg.z,
-          bench.host.memory().fast_probing.positioning_feed.value_or(0),
+          bench.host.memory().fast_probing.positioning_feed,
           static_cast<double>(bench.host.saved.size()),
           bench.host.memory().extrusion.value_or(Extrusion{}).step.x};
 }
