@@ -26,6 +26,15 @@ CycleResult<const Tool*> named_tool(const CycleContext& context) {
   return found;
 }
 
+/// What one millimetre of the measured deviation is on the tool, which has no scale (cycle 11,
+/// equal in all axes) and no mirror. A size has no sign, and a face turns round with Q267.
+double machine_factor(const machine::MachineState& state, ToolCorrection::Target target) {
+  const double factor = state.frames.scaling().factor.x;
+  const bool turned =
+      target == ToolCorrection::Target::Length && state.frames.mirror()[index(state.tool_axis())];
+  return turned ? -factor : factor;
+}
+
 using gauging::Verdict;
 
 constexpr std::uint16_t kStatusGood = 180;
@@ -95,15 +104,16 @@ CycleResult<void> correct_tool(const CycleContext& context, const ToolCorrection
   if (found == nullptr) return {};
   Tool tool = *found;
   const bool radius = correction.target == ToolCorrection::Target::Radius;
+  const double factor = machine_factor(context.state(), correction.target);
   double& oversize = radius ? tool.dr : tool.dl;
-  oversize = to_length(oversize + correction.change.to_mm()).to_mm();
+  oversize = to_length(oversize + correction.change.to_mm() * factor).to_mm();
   const Length breakage = to_length(radius ? tool.r_breakage : tool.l_breakage);
-  const bool broken = breakage > Length{} && magnitude(correction.deviation) > breakage;
+  const Length deviation = to_length(correction.deviation.to_mm() * factor);
+  const bool broken = breakage > Length{} && magnitude(deviation) > breakage;
   tool.locked = tool.locked || broken;
   TRY(context.machine.write_tool(tool));
   if (!broken) return {};
-  return nc_error(1065, "deviation {} mm, tool {} is locked", format_mm(correction.deviation),
-                  tool.number);
+  return nc_error(1065, "deviation {} mm, tool {} is locked", format_mm(deviation), tool.number);
 }
 
 CycleResult<ProbingMotion> begin_measurement(const CycleContext& context) {

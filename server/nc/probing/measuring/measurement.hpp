@@ -4,7 +4,7 @@
 
 namespace fitgauge::probing {
 
-/// The effect of Q330 on the row of the named tool.
+/// The effect of Q330 on the row of the named tool, in the coordinates of the measurement.
 struct ToolCorrection {
   enum class Target : std::uint8_t { Radius, Length };
   Target target = Target::Radius;
@@ -25,7 +25,8 @@ ToolCorrection face_correction(Length deviation, int direction);
 ToolCorrection length_correction(Length deviation);
 
 /// Corrects the tool that Q330 names, inside the tolerance too and on top of earlier corrections
-/// (decision 8). A deviation beyond RBREAK or LBREAK locks the tool. Q330 = 0 does nothing.
+/// (decision 8), by what the deviation is without scaling and mirror. Beyond RBREAK or LBREAK it
+/// locks the tool. Q330 = 0 does nothing.
 /// @errors 1092 the tool table has no such tool; 1065 the tool is locked now.
 CycleResult<void> correct_tool(const CycleContext& context, const ToolCorrection& correction);
 

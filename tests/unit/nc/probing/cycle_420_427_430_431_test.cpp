@@ -153,6 +153,34 @@ TEST_CASE("427 corrects the length of a tool in the probe axis, its radius acros
   CHECK(bench.machine.state().tools.find(7)->locked);
 }
 
+TEST_CASE("Q330 corrects the tool by the deviation without scale and mirror") {
+  machine::Setup setup{.machine = {}, .features = {kRaisedPlate}};
+  setup.machine.tools.push_back(tool_of(7, 80, 8));
+  setup.machine.tools.back().row.l_breakage = 0.013;
+  ProbingBench bench(setup);
+  machine::Frames frames;
+  frames.set_scaling({{2, 2, 2}, {}});
+  REQUIRE(bench.machine.set_frames(frames).has_value());
+  CHECK(bench.run(427, with(top_block(), {{263, 25.0}, {264, 20.0}, {330, 7.0}})) == 0);
+  CHECK(same(bench.host.q[168], 0.0065));
+  CHECK(same(bench.machine.state().tools.find(7)->dl, -0.013));
+  CHECK(bench.run(427, with(side_block(1, -1, 49.98), {{264, 20.0}, {330, 7.0}})) == 0);
+  CHECK(same(bench.machine.state().tools.find(7)->dr, -0.04));
+  machine::Tool tool = *bench.machine.state().tools.find(7);
+  tool.l_breakage = 0.0129;
+  REQUIRE(bench.machine.write_tool(tool).has_value());
+  CHECK(bench.run(427, with(top_block(), {{263, 25.0}, {264, 20.0}, {330, 7.0}})) == 1065);
+
+  ProbingBench mirrored(setup);
+  frames = {};
+  frames.set_mirror({true, false, true});
+  REQUIRE(mirrored.machine.set_frames(frames).has_value());
+  const Values top{{263, -50.0}, {267, 1.0}, {260, -50.0}, {330, 7.0}};
+  CHECK(mirrored.run(427, with(top_block(), top)) == 0);
+  CHECK(same(mirrored.host.q[168], -0.013));
+  CHECK(same(mirrored.machine.state().tools.find(7)->dl, -0.013));  // too high, as without mirror
+}
+
 TEST_CASE("the positioning logic lifts a probe below the clearance height first") {
   ProbingBench bench({kRaisedPlate});
   const auto stand_low = [&] {
