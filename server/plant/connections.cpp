@@ -46,19 +46,6 @@ bool is_same_folder(const std::filesystem::path& one, const std::filesystem::pat
          std::filesystem::weakly_canonical(other, failure);
 }
 
-/// Shows why a connection was not started.
-class NotStarted final : public Worker {
- public:
-  NotStarted(const Definition& definition, const Plant& plant) : Worker(definition.name, plant) {
-    change([&](ConnectionState& state) {
-      state.is_outgoing = std::ranges::find(kinds(), definition.kind, &Kind::name)->is_outgoing;
-      state.is_failing = true;
-      state.last_error = definition.fault;
-    });
-  }
-  void request_stop() override {}
-};
-
 constexpr std::size_t kMostWaiting = 64;
 constexpr std::size_t kTestsAtOnce = 8;
 
@@ -193,13 +180,14 @@ Connections::~Connections() {
   stopping_.request_stop();
   changes_.stop();
   tests_.stop();
-  for (const auto& [key, entry] : entries_) entry.worker->request_stop();
+  for (const auto& [key, entry] : entries_) {
+    if (entry.worker) entry.worker->request_stop();
+  }
 }
 
 void Connections::begin(Definition definition) {
   const std::string key = ascii_lower(definition.name);
-  auto worker = definition.fault.empty() ? definition.settings.start(plant_)
-                                         : std::make_unique<NotStarted>(definition, plant_);
+  auto worker = definition.fault.empty() ? definition.settings.start(plant_) : nullptr;
   const std::lock_guard lock(mutex_);
   entries_.insert_or_assign(key, Entry{std::move(definition), std::move(worker)});
 }
@@ -246,11 +234,15 @@ Result<Definition> Connections::named(std::string_view name) const {
 }
 
 ConnectionState Connections::state_of(const Entry& entry) {
-  ConnectionState state = entry.worker->state();
-  state.name = entry.definition.name;
-  state.kind = entry.definition.kind;
-  state.settings = entry.definition.shown;
-  state.is_read_only = entry.definition.is_read_only;
+  const Definition& definition = entry.definition;
+  ConnectionState state = entry.worker
+                              ? entry.worker->state()
+                              : ConnectionState{.is_failing = true, .last_error = definition.fault};
+  state.name = definition.name;
+  state.kind = definition.kind;
+  state.settings = definition.shown;
+  state.is_outgoing = std::ranges::find(kinds(), definition.kind, &Kind::name)->is_outgoing;
+  state.is_read_only = definition.is_read_only;
   return state;
 }
 

@@ -82,7 +82,7 @@ class Connections {
  private:
   struct Entry {
     Definition definition;
-    std::unique_ptr<Worker> worker;
+    std::unique_ptr<Worker> worker;  ///< none of a connection that was not started
   };
 
   explicit Connections(Plant plant);

@@ -101,7 +101,6 @@ class LogFollower final : public Worker {
         options_(std::move(options)),
         outlet_(std::move(outlet)),
         bell_(std::make_shared<Bell>()) {
-    change([](ConnectionState& state) { state.is_outgoing = true; });
     outlet_->wake_by([bell = bell_] { bell->ring(); });
     plant_.events.add(bell_);
     bool has_begun = begin();
