@@ -119,7 +119,4 @@ std::string record_target(
     std::string path, const RecordQuery& query,
     std::initializer_list<std::pair<std::string_view, std::string>> others = {});
 
-/// The answer of a GET; --json prints it unchanged.
-Outcome<JsonValue> get_document(const Context& context, const std::string& target);
-
 }  // namespace fitgauge::cli

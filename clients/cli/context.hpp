@@ -124,12 +124,9 @@ struct Context {
 template <class Print>
 Outcome<ExitCode> show(const Context& context, const Outcome<Answer>& answer, const Print& print) {
   if (!answer) return answer.error();
-  if (context.json) {
-    context.print_document(answer->body);
-    return ExitCode::Good;
-  }
+  if (context.json) context.print_document(answer->body);
   const auto document = TRY(context.document_of(*answer));
-  print(document);
+  if (!context.json) print(document);
   return ExitCode::Good;
 }
 

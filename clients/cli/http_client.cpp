@@ -143,14 +143,6 @@ std::string_view base_name(std::string_view path) {
 HttpClient::HttpClient(Connection connection)
     : connection_(std::move(connection)), handle_(std::make_unique<http_client::CurlHandle>()) {}
 HttpClient::~HttpClient() = default;
-HttpClient::HttpClient(HttpClient&&) noexcept = default;
-HttpClient& HttpClient::operator=(HttpClient&&) noexcept = default;
-
-Outcome<Answer> HttpClient::send(const Request& request) { return perform(request, nullptr); }
-
-Outcome<Answer> HttpClient::stream(const Request& request, const Sink& sink) {
-  return perform(request, &sink);
-}
 
 Outcome<Answer> HttpClient::perform(const Request& request, const Sink* sink) {
   http_client::CurlHandle& handle = *handle_;

@@ -43,20 +43,20 @@ class HttpClient {
  public:
   explicit HttpClient(Connection connection);
   ~HttpClient();
-  HttpClient(HttpClient&&) noexcept;
-  HttpClient& operator=(HttpClient&&) noexcept;
 
   const std::string& url() const { return connection_.url; }
 
   /// @errors NoAnswer: not reached, cut off, or silent for two minutes.
-  Outcome<Answer> send(const Request& request);
+  Outcome<Answer> send(const Request& request) { return perform(request, nullptr); }
 
   /// Receives a piece of a body; returns false to end the stream.
   using Sink = std::function<bool(std::string_view)>;
 
   /// Passes the body of a successful response to `sink` as it arrives, without a time limit; any
   /// other response has its body. @errors NoAnswer: also if nothing arrived for 45 seconds.
-  Outcome<Answer> stream(const Request& request, const Sink& sink);
+  Outcome<Answer> stream(const Request& request, const Sink& sink) {
+    return perform(request, &sink);
+  }
 
  private:
   Outcome<Answer> perform(const Request& request, const Sink* sink);

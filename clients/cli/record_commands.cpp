@@ -20,25 +20,18 @@ std::string record_target(std::string path, const RecordQuery& query,
   return path;
 }
 
-Outcome<JsonValue> get_document(const Context& context, const std::string& target) {
-  const auto answer = TRY(context.send({.target = target}));
-  if (context.json) context.print_document(answer.body);
-  return context.document_of(answer);
-}
-
 namespace {
 
 /// `fitgauge list`: a page of records, one a line, and on standard error how to get the next.
 Outcome<ExitCode> run_list(const Context& context, const RecordQuery& query) {
-  const auto page = TRY(get_document(
-      context, record_target("/v1/measurements", query,
-                             {{"limit", std::to_string(query.limit)}, {"after", query.after}})));
-  if (context.json) return ExitCode::Good;
-  for (const JsonValue& record : page.member("measurements").items)
-    context.print("{}", record_line(record, context.out));
-  if (const std::string_view next = page.text_of("next"); !next.empty())
-    context.note("more: --after {}", next);
-  return ExitCode::Good;
+  const std::string target = record_target(
+      "/v1/measurements", query, {{"limit", std::to_string(query.limit)}, {"after", query.after}});
+  return show(context, context.send({.target = target}), [&](const JsonValue& page) {
+    for (const JsonValue& record : page.member("measurements").items)
+      context.print("{}", record_line(record, context.out));
+    if (const std::string_view next = page.text_of("next"); !next.empty())
+      context.note("more: --after {}", next);
+  });
 }
 
 /// `fitgauge export`: writes every matching record as it arrives.
@@ -58,24 +51,25 @@ Outcome<ExitCode> run_export(const Context& context, const RecordQuery& query) {
 /// `fitgauge summary`: count, verdicts, mean and scatter of each group.
 Outcome<ExitCode> run_summary(const Context& context, const RecordQuery& query) {
   const std::string group_by = query.group_by.empty() ? "characteristic" : query.group_by;
-  const auto summary = TRY(get_document(
-      context, record_target("/v1/measurements/summary", query, {{"group_by", group_by}})));
-  if (context.json) return ExitCode::Good;
-  for (const JsonValue& group : summary.member("groups").items) {
-    const JsonValue& verdicts = group.member("verdicts");
-    const std::string_view value = group.text_of(group_by);
-    const std::string_view scatter = group.text_of("standard_deviation_mm");
-    const std::string_view unjudged = verdicts.text_of("unjudged");
-    context.print("{}: {} values, {} good, {} rework, {} reject, {} indeterminate{}{}\n",
-                  value.empty() ? "(none)" : value, group.text_of("count"),
-                  verdicts.text_of("good"), verdicts.text_of("rework"), verdicts.text_of("reject"),
-                  verdicts.text_of("indeterminate"), unjudged.empty() ? "" : ", ",
-                  unjudged.empty() ? "" : fmt::format("{} unjudged", unjudged));
-    context.print("    mean {} mm, s {} mm, {} to {} mm\n", group.text_of("mean_mm"),
-                  scatter.empty() ? "-" : scatter, group.text_of("min_mm"),
-                  group.text_of("max_mm"));
-  }
-  return ExitCode::Good;
+  const std::string target =
+      record_target("/v1/measurements/summary", query, {{"group_by", group_by}});
+  return show(context, context.send({.target = target}), [&](const JsonValue& summary) {
+    for (const JsonValue& group : summary.member("groups").items) {
+      const JsonValue& verdicts = group.member("verdicts");
+      const std::string_view value = group.text_of(group_by);
+      const std::string_view scatter = group.text_of("standard_deviation_mm");
+      const std::string_view unjudged = verdicts.text_of("unjudged");
+      context.print("{}: {} values, {} good, {} rework, {} reject, {} indeterminate{}{}\n",
+                    value.empty() ? "(none)" : value, group.text_of("count"),
+                    verdicts.text_of("good"), verdicts.text_of("rework"),
+                    verdicts.text_of("reject"), verdicts.text_of("indeterminate"),
+                    unjudged.empty() ? "" : ", ",
+                    unjudged.empty() ? "" : fmt::format("{} unjudged", unjudged));
+      context.print("    mean {} mm, s {} mm, {} to {} mm\n", group.text_of("mean_mm"),
+                    scatter.empty() ? "-" : scatter, group.text_of("min_mm"),
+                    group.text_of("max_mm"));
+    }
+  });
 }
 
 struct CorrectOptions {
@@ -120,11 +114,10 @@ Outcome<ExitCode> run_note(const Context& context, const NoteOptions& options) {
                      "a note must have a cause, an action or a text: add --cause, --action or "
                      "--text, or remove --operator to show the notes"};
     }
-    const auto notes = TRY(get_document(context, target));
-    if (context.json) return ExitCode::Good;
-    for (const JsonValue& note : notes.member("notes").items)
-      context.print("{}\n", note_line(note));
-    return ExitCode::Good;
+    return show(context, context.send({.target = target}), [&](const JsonValue& notes) {
+      for (const JsonValue& note : notes.member("notes").items)
+        context.print("{}\n", note_line(note));
+    });
   }
   const std::string body = JsonObject()
                                .add_given("cause", options.cause)

@@ -167,32 +167,32 @@ struct CapabilityQuery : RecordQuery {
 
 /// `fitgauge capability`: the indices with their intervals, and whether the process is stable.
 Outcome<ExitCode> run_capability(const Context& context, const CapabilityQuery& query) {
-  const auto found = TRY(get_document(context, record_target("/v1/measurements/capability", query,
-                                                             {{"target_mm", query.target_mm},
-                                                              {"confidence", query.confidence},
-                                                              {"subgroups", query.subgroups}})));
-  if (context.json) return ExitCode::Good;
-  print_selection(context, found);
-  context.print("mean {} mm, s {} mm within, {} mm overall\n", rounded(found, "mean", 6),
-                rounded(found, "standard_deviation_within", 6),
-                rounded(found, "standard_deviation_overall", 6));
-  for (const std::string_view name : {"cp", "cpk", "pp", "ppk", "cpm"}) {
-    const JsonValue& index = found.member(name);
-    context.print("{:<3} {} ({} to {})\n", name, rounded(index, "value", 3),
-                  rounded(index, "lower", 3), rounded(index, "upper", 3));
-  }
-  if (const JsonValue& fit = found.member("distribution"); fit.kind == JsonValue::Kind::Object) {
-    const bool is_tested = fit.member("p").kind == JsonValue::Kind::Number;
-    context.print("distribution {}{}\n", fit.text_of("name"),
-                  is_tested ? ", p " + rounded(fit, "p", 3) : "");
-  }
-  if (const JsonValue& reason = found.member("reason"); reason.kind == JsonValue::Kind::String)
-    context.print("no figure (-) because {}\n", reason.text);
-  const bool stable = found.text_of("stable") == "true";
-  context.print("{}\n", stable ? "stable: no rule is broken"
-                               : "NOT STABLE: these figures do not predict the next parts");
-  print_violations(context, found);
-  return ExitCode::Good;
+  const std::string target = record_target("/v1/measurements/capability", query,
+                                           {{"target_mm", query.target_mm},
+                                            {"confidence", query.confidence},
+                                            {"subgroups", query.subgroups}});
+  return show(context, context.send({.target = target}), [&](const JsonValue& found) {
+    print_selection(context, found);
+    context.print("mean {} mm, s {} mm within, {} mm overall\n", rounded(found, "mean", 6),
+                  rounded(found, "standard_deviation_within", 6),
+                  rounded(found, "standard_deviation_overall", 6));
+    for (const std::string_view name : {"cp", "cpk", "pp", "ppk", "cpm"}) {
+      const JsonValue& index = found.member(name);
+      context.print("{:<3} {} ({} to {})\n", name, rounded(index, "value", 3),
+                    rounded(index, "lower", 3), rounded(index, "upper", 3));
+    }
+    if (const JsonValue& fit = found.member("distribution"); fit.kind == JsonValue::Kind::Object) {
+      const bool is_tested = fit.member("p").kind == JsonValue::Kind::Number;
+      context.print("distribution {}{}\n", fit.text_of("name"),
+                    is_tested ? ", p " + rounded(fit, "p", 3) : "");
+    }
+    if (const JsonValue& reason = found.member("reason"); reason.kind == JsonValue::Kind::String)
+      context.print("no figure (-) because {}\n", reason.text);
+    const bool stable = found.text_of("stable") == "true";
+    context.print("{}\n", stable ? "stable: no rule is broken"
+                                 : "NOT STABLE: these figures do not predict the next parts");
+    print_violations(context, found);
+  });
 }
 
 struct ChartQuery : RecordQuery {
@@ -203,22 +203,21 @@ struct ChartQuery : RecordQuery {
 
 /// `fitgauge chart`: centre and limits of a control chart, and each violation of its rules.
 Outcome<ExitCode> run_chart(const Context& context, const ChartQuery& query) {
-  const auto found = TRY(get_document(context, record_target("/v1/measurements/chart", query,
-                                                             {{"kind", query.kind},
-                                                              {"rules", query.rules},
-                                                              {"subgroups", query.subgroups}})));
-  if (context.json) return ExitCode::Good;
-  print_selection(context, found);
-  for (const JsonValue& chart : found.member("charts").items) {
-    context.print("{:<5} centre {} mm, limits {} to {} mm\n", chart.text_of("name"),
-                  rounded(chart, "centre", 6), rounded(chart, "lower_limit", 6),
-                  rounded(chart, "upper_limit", 6));
-  }
-  print_violations(context, found);
-  if (found.member("violations").items.empty()) context.print("no rule is broken\n");
-  if (const std::string length = rounded(found, "average_run_length", 1); length != "-")
-    context.print("a false alarm every {} points on average\n", length);
-  return ExitCode::Good;
+  const std::string target =
+      record_target("/v1/measurements/chart", query,
+                    {{"kind", query.kind}, {"rules", query.rules}, {"subgroups", query.subgroups}});
+  return show(context, context.send({.target = target}), [&](const JsonValue& found) {
+    print_selection(context, found);
+    for (const JsonValue& chart : found.member("charts").items) {
+      context.print("{:<5} centre {} mm, limits {} to {} mm\n", chart.text_of("name"),
+                    rounded(chart, "centre", 6), rounded(chart, "lower_limit", 6),
+                    rounded(chart, "upper_limit", 6));
+    }
+    print_violations(context, found);
+    if (found.member("violations").items.empty()) context.print("no rule is broken\n");
+    if (const std::string length = rounded(found, "average_run_length", 1); length != "-")
+      context.print("a false alarm every {} points on average\n", length);
+  });
 }
 
 }  // namespace
