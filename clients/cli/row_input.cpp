@@ -1,26 +1,16 @@
 #include "cli/measure_command.hpp"
 
 #include "cli/local_files.hpp"
-#include "formats/qif/qif.hpp"
+#include "formats/sheet/imported_rows.hpp"
 
 namespace fitgauge::cli {
 
 struct RowInput::State {
   std::string name;
-  std::variant<aqdef::MeasurementCsv, qif::QifRows, sheet::ShopRows, sheet::NdjsonRows> source;
-  std::string rows{};  ///< of which `taken` bytes are read
+  sheet::ImportedRows source;
+  std::string rows = source.header();  ///< of which `taken` bytes are read
   std::size_t taken = 0;
   std::vector<std::uint32_t> lines{};
-
-  template <class Source>
-  State(std::string file, Source from) : name(std::move(file)), source(std::move(from)) {
-    if constexpr (requires { source_of<Source>().header(); }) rows = source_of<Source>().header();
-  }
-
-  template <class Source>
-  Source& source_of() {
-    return std::get<Source>(source);
-  }
 };
 
 namespace {
@@ -44,8 +34,6 @@ sheet::LimitsOfClass limits_by(const Context& context) {
     return known[target] = {.upper = upper, .lower = lower};
   };
 }
-
-bool is_dfq(const std::string& path) { return ascii_lower(path).ends_with(".dfq"); }
 
 Failure cannot_read(const std::string& path, const Error& error) {
   return Failure::of(ExitCode::LocalFile, "{}: {}", path, error.message);
@@ -108,40 +96,6 @@ Outcome<aqdef::MeasurementOptions> table_options(const Context& context,
   return table;
 }
 
-template <class Rows>
-Outcome<RowInput> opened(const std::string& name, Result<Rows> rows) {
-  if (!rows) return cannot_read(name, rows.error());
-  return RowInput(std::make_shared<RowInput::State>(name, *std::move(rows)));
-}
-
-Outcome<RowInput> open_dfq(const MeasureOptions& options, aqdef::MeasurementOptions table) {
-  const auto file = std::make_shared<InputFile>(TRY(InputFile::open(options.input)));
-  return opened<aqdef::MeasurementCsv>(options.input,
-                                       aqdef::MeasurementCsv(reading(file), std::move(table)));
-}
-
-Outcome<RowInput> open_qif(const MeasureOptions& options, aqdef::MeasurementOptions table) {
-  const auto file = std::make_shared<InputFile>(TRY(open_to_read_again(options.input)));
-  return opened(options.input,
-                qif::QifRows::open(reading(file), reading_again(file),
-                                   {std::move(table), std::numeric_limits<std::size_t>::max()}));
-}
-
-Outcome<RowInput> open_ndjson(const MeasureOptions& options, sheet::LimitsOfClass limits_of) {
-  const auto file = std::make_shared<InputFile>(TRY(InputFile::open(options.input)));
-  return opened(options.input, sheet::NdjsonRows::open({}, reading(file), sheet::Encoding::Utf8,
-                                                       std::move(limits_of)));
-}
-
-Outcome<RowInput> open_table(const MeasureOptions& options, sheet::ShopCsvOptions table) {
-  const bool is_known = table.encoding != sheet::Encoding::Detected;
-  const auto file = std::make_shared<InputFile>(
-      TRY(is_known ? InputFile::open(options.input) : open_to_read_again(options.input)));
-  return opened(options.input == "-" ? "standard input" : options.input,
-                sheet::ShopRows::open(reading(file), is_known ? reading(file) : reading_again(file),
-                                      std::move(table)));
-}
-
 }  // namespace
 
 bool RowInput::is_one(const MeasureOptions& options) {
@@ -149,15 +103,23 @@ bool RowInput::is_one(const MeasureOptions& options) {
 }
 
 bool RowInput::keeps_lines(const MeasureOptions& options) {
-  return !is_dfq(options.input) && !qif::is_qif(options.input);
+  return !aqdef::is_dfq(options.input) && !qif::is_qif(options.input);
 }
 
 Outcome<RowInput> RowInput::open(const Context& context, const MeasureOptions& options) {
   auto table = TRY(table_options(context, options));
-  if (qif::is_qif(options.input)) return open_qif(options, std::move(table));
-  if (is_dfq(options.input)) return open_dfq(options, std::move(table));
-  if (sheet::is_ndjson(options.input)) return open_ndjson(options, std::move(table.limits_of));
-  return open_table(options, std::move(table));
+  if (sheet::is_ndjson(options.input)) table.encoding = sheet::Encoding::Utf8;
+  const bool is_detected =
+      !aqdef::is_dfq(options.input) && table.encoding == sheet::Encoding::Detected;
+  const bool is_read_twice = qif::is_qif(options.input) || is_detected;
+  const auto file = std::make_shared<InputFile>(
+      TRY(is_read_twice ? open_to_read_again(options.input) : InputFile::open(options.input)));
+  const std::string name = options.input == "-" ? "standard input" : options.input;
+  auto source = sheet::ImportedRows::open(
+      options.input, reading(file), is_read_twice ? reading_again(file) : reading(file),
+      {std::move(table), std::numeric_limits<std::size_t>::max()});
+  if (!source) return cannot_read(name, source.error());
+  return RowInput(std::make_shared<State>(State{.name = name, .source = *std::move(source)}));
 }
 
 Outcome<bool> RowInput::fill() {
@@ -165,18 +127,12 @@ Outcome<bool> RowInput::fill() {
   state.rows.clear();
   state.lines.clear();
   state.taken = 0;
-  return std::visit(
-      [&state](auto& source) -> Outcome<bool> {
-        const auto more = sheet::append_next(source, state.rows, state.lines);
-        if (!more) return cannot_read(state.name, more.error());
-        if (*more) return true;
-        if constexpr (requires { source.check(); }) {
-          const auto checked = source.check();
-          if (!checked) return cannot_read(state.name, checked.error());
-        }
-        return false;
-      },
-      state.source);
+  const auto more = state.source.append(state.rows, state.lines);
+  if (!more) return cannot_read(state.name, more.error());
+  if (*more) return true;
+  if (const auto checked = state.source.check(); !checked)
+    return cannot_read(state.name, checked.error());
+  return false;
 }
 
 Outcome<std::size_t> RowInput::read(std::span<char> into) {

@@ -5,6 +5,9 @@
 
 namespace fitgauge::aqdef {
 
+/// Whether a file name ends with `.dfq`.
+inline bool is_dfq(std::string_view file_name) { return ascii_lower(file_name).ends_with(".dfq"); }
+
 /// As for a table; columns are `K0054` and the field of a measurement that it is, constants are for
 /// a file without that field, others are characteristics and values that are not measurements.
 struct MeasurementOptions : sheet::ShopCsvOptions {

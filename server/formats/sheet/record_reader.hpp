@@ -61,19 +61,6 @@ void append_row(std::string& rows, const Fields& fields) {
   rows += '\n';
 }
 
-/// Appends the next rows of a source, with their lines if these differ.
-/// @param source has append(rows), or append(rows, lines)
-/// @param lines of the file, one for each appended row
-/// @returns false at the end
-template <class Source>
-Result<bool> append_next(Source& source, std::string& rows, std::vector<std::uint32_t>& lines) {
-  if constexpr (requires { source.append(rows, lines); }) {
-    return source.append(rows, lines);
-  } else {
-    return source.append(rows);
-  }
-}
-
 /// An error in a line of a table; `where` is the line.
 Error at_table_line(ErrorCode code, std::size_t line, std::string_view what);
 

@@ -1,6 +1,6 @@
 #include "plant/folder/folder_in.hpp"
 
-#include "formats/qif/qif.hpp"
+#include "formats/sheet/imported_rows.hpp"
 #include "http/request.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 #include "service/measurements/measurement_service.hpp"
@@ -41,7 +41,7 @@ Result<void> append_all(Source& source, FileRows& rows) {
     if (rows.stop.stop_requested())
       return Error{ErrorCode::ShuttingDown, "the service is shutting down"};
     const std::size_t before = rows.text.size();
-    const auto more = TRY(sheet::append_next(source, rows.text, rows.lines));
+    const auto more = TRY(source.append(rows.text, rows.lines));
     if (!more) return {};
     if (rows.text.size() > before && rows.text[before] != '\n') ++count;
     if (std::max(count, rows.lines.size()) > api::kMostRows) {
@@ -53,39 +53,24 @@ Result<void> append_all(Source& source, FileRows& rows) {
   }
 }
 
-Result<void> append_dfq(const aqdef::MeasurementOptions& options, const RestingFile& file,
-                        const RestingFile* description, FileRows& rows) {
-  aqdef::MeasurementCsv csv((description == nullptr ? file : *description).from_begin(), options);
+/// Reads the values of a DFX after the description in its DFD.
+Result<void> append_dfx(const aqdef::MeasurementOptions& options, const RestingFile& file,
+                        const RestingFile& description, FileRows& rows) {
+  aqdef::MeasurementCsv csv(description.from_begin(), options);
   rows.text += csv.header();
   if (const auto appended = append_all(csv, rows); !appended) {
     Error error = appended.error();
-    if (description != nullptr) error.message = "the DFD: " + error.message;
+    error.message = "the DFD: " + error.message;
     return error;
   }
-  if (description != nullptr) {
-    csv.go_on_with(file.from_begin());
-    TRY(append_all(csv, rows));
-  }
+  csv.go_on_with(file.from_begin());
+  TRY(append_all(csv, rows));
   return csv.check();
-}
-
-Result<void> append_qif(const aqdef::MeasurementOptions& options, const RestingFile& file,
-                        FileRows& rows) {
-  auto values =
-      TRY(qif::QifRows::open(file.from_begin(), file.from_begin(), {options, api::kMostRows}));
-  rows.text += values.header();
-  TRY(append_all(values, rows));
-  return values.check();
-}
-
-bool is_dfq(std::string_view file_name) {
-  const std::string name = ascii_lower(file_name);
-  return name.ends_with(".dfq") || name.ends_with(".dfx");
 }
 
 /// Reads a table, NDJSON, DFQ or QIF by its name, piece by piece, and keeps only its rows.
 /// @param description of a DFX: its DFD; else null.
-/// @errors BodyTooLarge; ShuttingDown; those of ShopRows, NdjsonRows, MeasurementCsv and QifRows
+/// @errors BodyTooLarge; ShuttingDown; those of ImportedRows
 Result<FileRows> read_file_rows(const aqdef::MeasurementOptions& options,
                                 std::string_view file_name, const RestingFile& file,
                                 const RestingFile* description, const std::stop_token& stop) {
@@ -93,19 +78,15 @@ Result<FileRows> read_file_rows(const aqdef::MeasurementOptions& options,
                 .stop = stop};
   // Reserved room that is not used needs no memory; a text that grows exists twice for a moment.
   rows.text.reserve(FileRows::kMostBytes + kMostAppended + http::Request::kBodyPadding);
-  if (is_dfq(file_name)) {
-    TRY(append_dfq(options, file, description, rows));
-  } else if (qif::is_qif(file_name)) {
-    TRY(append_qif(options, file, rows));
-  } else if (sheet::is_ndjson(file_name)) {
-    auto records = TRY(sheet::NdjsonRows::open(file.from_begin(), file.from_begin(),
-                                               options.encoding, options.limits_of));
-    TRY(append_all(records, rows));
-  } else {
-    auto table = TRY(sheet::ShopRows::open(file.from_begin(), file.from_begin(), options));
-    rows.text += table.header();
-    TRY(append_all(table, rows));
+  if (description != nullptr) {
+    TRY(append_dfx(options, file, *description, rows));
+    return rows;
   }
+  auto source = TRY(sheet::ImportedRows::open(file_name, file.from_begin(), file.from_begin(),
+                                              {options, api::kMostRows}));
+  rows.text += source.header();
+  TRY(append_all(source, rows));
+  TRY(source.check());
   return rows;
 }
 
