@@ -6,7 +6,8 @@
 
 namespace fitgauge::cli {
 
-enum class Colour { Green, Yellow, Red, Blue, Cyan };
+/// The colours with their codes (ECMA-48, SGR).
+enum class Colour { Red = 31, Green = 32, Yellow = 33, Blue = 34, Cyan = 36 };
 
 /// Abilities of a stream.
 struct Terminal {

@@ -4,6 +4,7 @@
 #include "cli/local_files.hpp"
 #include "nc/iso/parser.hpp"
 #include "nc/klartext/parser.hpp"
+#include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -187,8 +188,7 @@ std::string ReadProgram::as_written(std::string_view text) const {
     bytes[utf8_from_windows1252(std::string(1, static_cast<char>(byte)))] = static_cast<char>(byte);
   std::string written(has_mark ? kMark : "");
   for (std::size_t at = 0, next = 0; at < text.size(); at = next) {
-    next = at + 1;
-    while (next < text.size() && (static_cast<unsigned char>(text[next]) & 0xC0) == 0x80) ++next;
+    next = tabfile::skip_characters(text, at, 1);
     const auto character = std::string(text.substr(at, next - at));
     const auto byte = bytes.find(character);
     if (!is_utf8 && byte != bytes.end()) {

@@ -7,17 +7,6 @@
 namespace fitgauge::cli {
 namespace {
 
-int code_of(Colour colour) {
-  switch (colour) {
-    case Colour::Red: return 31;
-    case Colour::Green: return 32;
-    case Colour::Yellow: return 33;
-    case Colour::Blue: return 34;
-    case Colour::Cyan: break;
-  }
-  return 36;
-}
-
 bool is_utf8(const Environment& environment) {
   for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
     const std::string locale = ascii_lower(environment(name));
@@ -45,7 +34,7 @@ std::string bar_of(std::uint64_t bytes, std::uint64_t in_all, bool unicode) {
 
 std::string Terminal::painted(std::string_view text, Colour wanted) const {
   if (!colour) return std::string(text);
-  return fmt::format("\x1b[{}m{}\x1b[0m", code_of(wanted), text);
+  return fmt::format("\x1b[{}m{}\x1b[0m", static_cast<int>(wanted), text);
 }
 
 std::string environment_variable(const char* name) {

@@ -1,4 +1,5 @@
 #include "cli/answers.hpp"
+#include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -13,18 +14,8 @@ std::string repeated(std::string_view piece, std::size_t count) {
   return out;
 }
 
-/// The columns of `text`: its characters, not its bytes.
-std::size_t width_of(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & '\xC0') != '\x80'; }));
-}
-
 std::string padded(std::string text, std::size_t width) {
-  return text.append(width - std::min(width, width_of(text)), ' ');
-}
-
-std::string signed_um(Length deviation) {
-  return (deviation > Length() ? "+" : "") + format_um(deviation);
+  return text.append(width - std::min(width, tabfile::count_characters(text)), ' ');
 }
 
 /// The lines of the drawing are numbered from the zero line, 0: above it 1, 2, …, below it -1, -2,
@@ -88,10 +79,10 @@ std::string label_of(const ToleranceZone& zone, std::int64_t line, const Scale& 
                      const Terminal& terminal) {
   std::string label;
   if (scale.upper_line(zone) == line)
-    label = fmt::format("{} {}", zone.upper_name, signed_um(zone.upper));
+    label = fmt::format("{} {}", zone.upper_name, signed_text(format_um(zone.upper)));
   if (scale.lower_line(zone) == line) {
     if (!label.empty()) label += ", ";
-    label += fmt::format("{} {}", zone.lower_name, signed_um(zone.lower));
+    label += fmt::format("{} {}", zone.lower_name, signed_text(format_um(zone.lower)));
   }
   return label.empty() ? label : fmt::format(" {} {} ", label, terminal.micrometre());
 }
@@ -108,7 +99,8 @@ std::string draw_line(std::span<const ToleranceZone> zones, std::int64_t line, c
     const std::string bar = repeated(piece, kZoneWidth);
     out += is_zone ? terminal.painted(bar, zone.colour) : bar;
     const std::string label = label_of(zone, line, scale, terminal);
-    out += label + repeated(ground, kLabelWidth - std::min(kLabelWidth, width_of(label)));
+    out += label +
+           repeated(ground, kLabelWidth - std::min(kLabelWidth, tabfile::count_characters(label)));
   }
   return out;
 }

@@ -1,6 +1,7 @@
 #include "formats/dfq/dfq_writer.hpp"
 
 #include "record/verdict_codec.hpp"
+#include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::aqdef {
 namespace {
@@ -10,19 +11,9 @@ constexpr std::string_view kNoValue =
     "\x14"
     "256";  ///< of a characteristic that was not measured
 
-std::size_t characters_of(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
 /// The first characters, whole.
 std::string_view cut(std::string_view text, std::size_t characters) {
-  std::size_t at = 0;
-  for (; at < text.size(); ++at) {
-    const bool begins = (static_cast<unsigned char>(text[at]) & 0xC0) != 0x80;
-    if (begins && characters-- == 0) break;
-  }
-  return trim(text.substr(0, at));
+  return trim(text.substr(0, tabfile::skip_characters(text, 0, characters)));
 }
 
 int decimals_of(std::string_view number) {
@@ -101,8 +92,7 @@ std::optional<std::string> as_windows1252(std::string_view text) {
       out += text[at++];
       continue;
     }
-    std::size_t end = at + 1;
-    while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) ++end;
+    const std::size_t end = tabfile::skip_characters(text, at, 1);
     const auto found = upper.find(text.substr(at, end - at));
     if (found == upper.end()) return std::nullopt;
     out += found->second;
@@ -125,7 +115,7 @@ Result<void> check_text(int number, std::string_view text) {
                  fmt::format("{} cannot hold a line end or another control character", name)};
   }
   if (info == nullptr || info->longest == 0) return {};
-  const std::size_t count = characters_of(text);
+  const std::size_t count = tabfile::count_characters(text);
   if (count <= static_cast<std::size_t>(info->longest)) return {};
   return Error{ErrorCode::FieldTooLong,
                fmt::format("{} must have at most {} characters; '{}' has {}", name, info->longest,

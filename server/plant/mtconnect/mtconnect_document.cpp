@@ -3,8 +3,6 @@
 namespace fitgauge::mtconnect {
 namespace {
 
-using gauging::Verdict;
-
 /// The largest number of the schema: the log is kept for ever, so the buffer drops nothing.
 constexpr std::string_view kBufferSize = "4294967294";
 
@@ -20,15 +18,8 @@ std::string key_of(std::string_view characteristic) {
   return key;
 }
 
-std::string_view status_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::Good: return "PASS";
-    case Verdict::Rework: return "REWORK";
-    case Verdict::Reject: return "FAIL";
-    case Verdict::Unjudged: return "UNDEFINED";
-    case Verdict::Indeterminate: break;
-  }
-  return "INDETERMINATE";
+std::string_view status_of(gauging::Verdict verdict) {
+  return word_of(verdict, {"PASS", "REWORK", "FAIL", "INDETERMINATE", "UNDEFINED"});
 }
 
 /// Returns a number from 1, equal for equal histories of a data folder.
