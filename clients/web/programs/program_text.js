@@ -20,6 +20,20 @@ const LONGEST_CHECKED = 1_000_000;
 const drafts = new Map();
 addEventListener('beforeunload', (event) => { if (drafts.size) event.preventDefault(); });
 
+/** A file as it is on the disk; where it is not there, or not any more, what is not stored of it. */
+async function fileOf(path) {
+  const draft = drafts.get(path);
+  if (draft?.tag !== null) {
+    try {
+      return await readFile(path);
+    } catch (problem) {
+      if (!draft || problem.status !== 404) throw problem;
+      draft.tag = null;
+    }
+  }
+  return draft;
+}
+
 export class ProgramText {
   #timer = 0;
   #opening;
@@ -53,6 +67,11 @@ export class ProgramText {
     return drafts.has(this.path);
   }
 
+  /** The paths of what is not stored. */
+  static get unstored() {
+    return [...drafts.keys()];
+  }
+
   /** Begins a file that is not on the disk. */
   static begin(path, text) {
     if (!drafts.has(path)) drafts.set(path, { text, tag: null });
@@ -62,13 +81,13 @@ export class ProgramText {
   async open(path) {
     clearTimeout(this.#timer);
     this.#opening = path;
-    const draft = drafts.get(path);
-    const file = draft?.tag === null ? { text: null, ...draft, stored: null } : await readFile(path);
+    const file = await fileOf(path);
     if (this.#opening !== path) return false;
+    const draft = drafts.get(path);
     this.path = path;
     this.called.close();
     this.tag = draft ? draft.tag : file.tag;
-    this.stored = draft?.tag === null ? null : file.text;
+    this.stored = this.tag === null ? null : file.text;
     this.lineBreak = file.text?.includes('\r\n') ? '\r\n' : '\n';
     const reason = file.reason ?? '';
     this.note.hidden = !reason;

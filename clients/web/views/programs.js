@@ -73,13 +73,14 @@ export function mount(main, route) {
     const isNew = source.tag === null;
     ProgramText.forget(current);
     if (isNew) current = '';
+    await list();
     await open();
   }
 
   async function list() {
-    const all = await listFiles();
-    files.show(all, current);
-    return all;
+    const there = await listFiles();
+    const elsewhere = ProgramText.unstored.filter((path) => there.every((file) => file.path !== path));
+    files.show([...there, ...elsewhere.map((path) => ({ path }))], current);
   }
 
   async function open(options = {}) {
@@ -88,7 +89,15 @@ export function mount(main, route) {
     nothing.hidden = current !== '';
     program.hidden = current === '';
     if (!current) return;
-    if (!await source.open(current)) return;
+    const asked = current;
+    try {
+      if (!await source.open(asked)) return;
+    } catch (problem) {
+      if (current !== asked) return;
+      current = ''; // what was open before does not stand under the name of this one
+      await open();
+      throw problem;
+    }
     name.textContent = fileName(current);
     form.element.hidden = !isProgram(current);
     form.report.hidden = !isProgram(current);

@@ -1,0 +1,91 @@
+/**
+ * Texts of programs that are not stored, while the disk changes elsewhere.
+ *
+ * Tried, and held here:
+ * - A program is deleted elsewhere while its text is changed here: the text is there, and can be stored
+ * - Begin a program, open another before it is stored: both are in the list
+ * - A program that cannot be opened: nothing of the one before stands, or runs, under its name
+ */
+
+import assert from 'node:assert/strict';
+import { afterEach, describe, it } from 'node:test';
+
+import { close, open } from './support/browser.mjs';
+import { browser, daemon } from './support/stage.mjs';
+
+let page;
+
+afterEach(() => close(page));
+
+const textOf = (name) => `BEGIN PGM ${name.toUpperCase()} MM\nEND PGM ${name.toUpperCase()} MM\n`;
+const put = (name) => daemon.send('PUT', `/v1/files/nc_prog/${name}.h`, textOf(name), 'text/plain');
+const there = async (name) => (await fetch(`${daemon.url}/v1/files/nc_prog/${name}.h`)).text();
+const shown = (name) => page.waitForSelector(`.cm-line:has-text("END PGM ${name.toUpperCase()} MM")`);
+const pick = (name) => page.click(`.files button:text-is("${name}.h")`);
+const isStored = () => page.waitForFunction(() => document.querySelector('.title .aside').textContent === '');
+
+async function type(text) {
+  await page.click('.cm-line >> nth=0');
+  await page.keyboard.press('End');
+  await page.keyboard.type(text);
+  await page.waitForFunction(() => document.querySelector('.title .aside').textContent !== '');
+}
+
+describe('a program that is not stored', () => {
+  it('is kept where its file is deleted elsewhere, and is stored anew', async () => {
+    await put('gone');
+    await put('other');
+    page = await open(browser, daemon, '#/programs/nc_prog/gone.h');
+    await shown('gone');
+    await type(' ; mine');
+    await daemon.send('DELETE', '/v1/files/nc_prog/gone.h', '');
+    await pick('other');
+    await shown('other');
+    await pick('gone');
+    await page.waitForSelector('.cm-line:has-text("; mine")');
+    assert.match(await page.textContent('.title'), /^gone\.h.*not stored yet/);
+    await page.click('.program .actions button:has-text("Store")');
+    await isStored();
+    assert.equal(await there('gone'), textOf('gone').replace('MM\n', 'MM ; mine\n'));
+  });
+
+  it('is in the list from its beginning until it is discarded', async () => {
+    await put('other');
+    page = await open(browser, daemon, '#/programs/nc_prog/other.h');
+    await shown('other');
+    await page.fill('.begin input', 'begun');
+    await page.click('.begin button');
+    await shown('begun');
+    await type(' ; mine');
+    await pick('other');
+    await shown('other');
+    await pick('begun');
+    await page.waitForSelector('.cm-line:has-text("; mine")');
+    await page.click('button:has-text("Discard changes")');
+    await page.click('dialog button:has-text("Discard changes")');
+    await page.waitForSelector('.empty:not([hidden])');
+    assert.equal(await page.$('.files button:text-is("begun.h")'), null);
+  });
+});
+
+describe('a program that cannot be opened', () => {
+  it('leaves nothing of the one before under its name', async () => {
+    await put('first');
+    await put('second');
+    page = await open(browser, daemon, '#/programs/nc_prog/first.h');
+    await shown('first');
+    await type(' ; mine');
+    await page.route('**/v1/files/nc_prog/second.h', (route) => route.abort());
+    await pick('second');
+    await page.waitForFunction(() => document.querySelector('.program > .note').textContent !== '');
+    assert.equal(await page.isVisible('.run button[type="submit"]'), false);
+    assert.equal(await page.isVisible('.title'), false);
+    await pick('first');
+    await page.waitForSelector('.cm-line:has-text("; mine")');
+    assert.match(await page.textContent('.title'), /^first\.h.*not stored yet/);
+    await page.unroute('**/v1/files/nc_prog/second.h');
+    await pick('second');
+    await shown('second');
+    assert.equal(await page.textContent('.title'), 'second.h');
+  });
+});
