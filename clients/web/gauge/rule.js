@@ -26,12 +26,15 @@ export class Rule {
     this.select.value = RULES.includes(rule) ? rule : 'simple';
     this.uncertainty.value = uncertainty_um ?? '';
     this.coverage.value = coverage_factor ?? '';
+    this.filled = undefined;
     this.#allow();
+    this.fill(this.ofGauge);
   }
 
-  /** Takes the uncertainty of a gauge, unless somebody has typed one or none is needed. @returns whether it took it */
+  /** Takes the uncertainty of a gauge, now and for each rule to come, unless somebody has typed one or none is needed. @returns whether it took it now */
   fill(um) {
-    if (this.isSimple || ![this.filled, ''].includes(this.uncertainty.value.trim())) return false;
+    this.ofGauge = um;
+    if (!um || this.isSimple || this.uncertainty.value.trim()) return false;
     this.filled = um;
     this.uncertainty.value = um;
     return true;
@@ -40,7 +43,7 @@ export class Rule {
   /** Another gauge: what the one before gave is none of its own. */
   unfill() {
     if (this.filled !== undefined && this.uncertainty.value.trim() === this.filled) this.uncertainty.value = '';
-    this.filled = undefined;
+    this.filled = this.ofGauge = undefined;
   }
 
   get isSimple() {
