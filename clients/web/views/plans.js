@@ -166,8 +166,8 @@ export function mount(main, route) {
     const { part, tag } = current;
     if (!await leaveForm()) return;
     current = null;
-    if (tag === null) await close();
-    else await open(part);
+    if (tag !== null) await open(part).catch(async (problem) => { await close(); throw problem; });
+    else await close();
   }
 
   /** @param replacing whether what stands there now is replaced, whoever has written it */

@@ -1,10 +1,11 @@
 /**
- * Texts of programs that are not stored, while the disk changes elsewhere.
+ * Programs and plans that are not stored, while the stored ones change elsewhere.
  *
  * Tried, and held here:
  * - A program is deleted elsewhere while its text is changed here: the text is there, and can be stored
  * - Begin a program, open another before it is stored: both are in the list
  * - A program that cannot be opened: nothing of the one before stands, or runs, under its name
+ * A plan is deleted elsewhere and the changes to it are discarded here: the list, and why
  */
 
 import assert from 'node:assert/strict';
@@ -87,5 +88,20 @@ describe('a program that cannot be opened', () => {
     await pick('second');
     await shown('second');
     assert.equal(await page.textContent('.title'), 'second.h');
+  });
+});
+
+describe('a plan whose changes are discarded', () => {
+  it('leaves no form behind where it is deleted elsewhere', async () => {
+    await daemon.send('PUT', '/v1/plans/GONE', { characteristics: [{ name: 'bore', designation: '25 H7' }] });
+    page = await open(browser, daemon, '#/plans/GONE');
+    await page.waitForSelector('.editor:not([hidden]) .characteristic');
+    await page.fill('.editor [name="name"] >> nth=0', 'changed');
+    await daemon.send('DELETE', '/v1/plans/GONE', '');
+    await page.click('.editor button:has-text("Discard changes")');
+    await page.click('dialog button:has-text("Discard changes")');
+    await page.waitForSelector('.plan-list:not([hidden])');
+    await page.waitForFunction(() => document.querySelector('.plans .done').textContent !== '');
+    assert.equal(await page.isVisible('.editor'), false);
   });
 });
