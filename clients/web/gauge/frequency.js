@@ -25,10 +25,16 @@ export function frequencyOf(words = '') {
   return what === 'parts' ? { samples: Number(samples), parts: count } : { samples: Number(samples), period: count * Number(what) * MINUTE_MS };
 }
 
-/** When the period began that a moment is in: hours and days are those on the clock of the wall. */
-export function periodStart(now, period) {
-  const zone = new Date(now).getTimezoneOffset() * MINUTE_MS;
-  return Math.floor((now - zone) / period) * period + zone;
+const zoneAt = (moment) => new Date(moment).getTimezoneOffset() * MINUTE_MS;
+
+/**
+ * When the period began that a moment is in: hours and days are those on the clock of the wall, also where that is put forward or back.
+ * @param later so many periods after that one
+ */
+export function periodStart(now, period, later = 0) {
+  const zone = zoneAt(now);
+  const wall = (Math.floor((now - zone) / period) + later) * period;
+  return wall + zoneAt(wall + zone);
 }
 
 /** Values by their sample, in order of its begin: {name, begin, last, parts}. Without a size each is one. */
@@ -63,7 +69,7 @@ export function standing({ samples, size, isOwn, frequency, parts, part, now }) 
   if (frequency?.period) {
     const start = periodStart(now, frequency.period);
     const taken = samples.filter(({ begin }) => begin >= start).length;
-    return taken < frequency.samples ? { due: true } : { due: false, until: start + frequency.period };
+    return taken < frequency.samples ? { due: true } : { due: false, until: periodStart(now, frequency.period, 1) };
   }
   const before = frequency && parts && samples.at(-frequency.samples);
   if (!before) return { due: true };

@@ -23,7 +23,7 @@ import { answer } from './support/reactions.mjs';
 import { scan } from './support/scanner.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
-const { frequencyOf, periodStart } = await import(path.resolve('clients/web/gauge/frequency.js'));
+const { frequencyOf, periodStart, standing } = await import(path.resolve('clients/web/gauge/frequency.js'));
 
 const H7 = { designation: '25 H7' };
 let pages = [];
@@ -84,6 +84,28 @@ describe('how often', () => {
     const moment = new Date(2026, 2, 3, 14, 47, 12).getTime();
     const at = (minutes) => new Date(periodStart(moment, minutes * 60000)).toTimeString().slice(0, 5);
     assert.deepEqual([at(60), at(30), at(120), at(1440)], ['14:00', '14:30', '14:00', '00:00']);
+  });
+
+  it('has days that are an hour longer or shorter', () => {
+    const zone = process.env.TZ;
+    process.env.TZ = 'Europe/Berlin';
+    try {
+      const DAY = 24 * 3600000;
+      for (const [now, begin, end] of [
+        ['2026-03-29T10:00:00+02:00', '2026-03-29T00:00:00+01:00', '2026-03-30T00:00:00+02:00'],
+        ['2026-03-29T01:30:00+01:00', '2026-03-29T00:00:00+01:00', '2026-03-30T00:00:00+02:00'],
+        ['2026-10-25T10:00:00+01:00', '2026-10-25T00:00:00+02:00', '2026-10-26T00:00:00+01:00'],
+        ['2026-10-25T01:30:00+02:00', '2026-10-25T00:00:00+02:00', '2026-10-26T00:00:00+01:00'],
+      ]) {
+        const [moment, first, next] = [now, begin, end].map((text) => new Date(text).getTime());
+        assert.equal(new Date(periodStart(moment, DAY)).toISOString(), new Date(first).toISOString(), now);
+        const taken = standing({ samples: [{ begin: first, last: first, parts: [], count: 1 }], size: 1, isOwn: () => false, frequency: { samples: 1, period: DAY }, parts: null, now: moment });
+        assert.deepEqual(taken, { due: false, until: next }, now);
+      }
+    } finally {
+      if (zone === undefined) delete process.env.TZ;
+      else process.env.TZ = zone;
+    }
   });
 });
 
