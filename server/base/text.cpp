@@ -48,9 +48,9 @@ bool is_no_character(char c) {
 /// Longer words are not compared.
 constexpr std::size_t kLongestWord = 40;
 
-/// The smallest number of letters to insert, remove, replace or swap.
+/// The smallest number of letters to insert, remove, replace or swap, in words of kLongestWord.
 std::size_t edits(std::string_view a, std::string_view b) {
-  std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  std::array<std::array<std::size_t, kLongestWord + 1>, kLongestWord + 1> cost;
   for (std::size_t i = 0; i <= a.size(); ++i) {
     for (std::size_t j = 0; j <= b.size(); ++j) {
       if (i == 0 || j == 0) {
@@ -225,6 +225,9 @@ void SpellingHint::consider(std::string_view known) {
       known.size() > kLongestWord) {
     return;
   }
+  // At least as many edits as one is longer.
+  if (std::max(word_.size(), known.size()) - std::min(word_.size(), known.size()) >= distance_)
+    return;
   const std::size_t distance = edits(word_, ascii_upper(known));
   if (distance >= distance_ || distance >= known.size()) return;
   distance_ = distance;
