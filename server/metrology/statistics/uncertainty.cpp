@@ -189,7 +189,9 @@ Result<CombinedUncertainty> combine(const Budget& budget) {
   result.combined = std::sqrt(std::max(0.0, variance));
   result.welch_satterthwaite =
       weighted > 0 ? variance * variance / weighted : std::numeric_limits<double>::infinity();
-  result.degrees_of_freedom = std::max(1.0, std::floor(result.welch_satterthwaite));
+  constexpr double kRounding = 1e-12;  // of sums in binary: 31 degrees must not become 30
+  result.degrees_of_freedom =
+      std::max(1.0, std::floor(result.welch_satterthwaite * (1 + kRounding)));
   const long double p = (1 + static_cast<long double>(budget.probability)) / 2;
   result.coverage_factor = static_cast<double>(std::isinf(result.degrees_of_freedom)
                                                    ? normal_quantile(p)

@@ -46,6 +46,17 @@ TEST_CASE("correlated contributions have no more freedom than one of them") {
   CHECK(combine(budget)->welch_satterthwaite == Approx(4 / (1.0 / 5 + 1.0 / 7)));
 }
 
+TEST_CASE("whole degrees of freedom are not one fewer") {
+  const auto freedom = [](std::size_t count, double u, double each) {
+    const Contribution one{.standard_uncertainty = u, .degrees_of_freedom = each};
+    return combine({.contributions = std::vector<Contribution>(count, one)})->degrees_of_freedom;
+  };
+  CHECK(freedom(1, 0.8, 31) == 31);
+  CHECK(freedom(2, 1.2, 15) == 30);
+  CHECK(freedom(3, 0.1, 3) == 9);
+  CHECK(freedom(1, 0.8, 31.999999) == 31);
+}
+
 TEST_CASE("a normal contribution with degrees of freedom is drawn from their t") {
   const Budget budget{.contributions = {{.standard_uncertainty = 1, .degrees_of_freedom = 5}}};
   const MonteCarloResult drawn = simulate(budget, {.trials = 400'000, .seed = 2}).value();
