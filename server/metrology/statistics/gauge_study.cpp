@@ -173,10 +173,9 @@ class StudyBounds {
   long double tail_;
 };
 
-void set_categories(GaugeStudy& study) {
-  if (study.grr == 0) return;
-  const long double ratio = std::floor(std::sqrt(2.0L) * study.pv / study.grr);
-  study.ndc = std::max<std::int64_t>(1, static_cast<std::int64_t>(ratio));
+/// @param ratio sqrt(2) PV / GRR
+void set_categories(GaugeStudy& study, long double ratio) {
+  study.ndc = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::floor(ratio)));
 }
 
 /// @param none a component that cannot be separated
@@ -189,7 +188,7 @@ void set_components(GaugeStudy& study, const Exact& ev, const std::optional<Exac
   study.grr = square_root(grr);
   study.pv = square_root(pv);
   study.tv = square_root(grr + pv);
-  set_categories(study);
+  if (grr > 0) set_categories(study, square_root(2 * pv / grr));
 }
 
 Result<GaugeStudy> crossed(const Cells& s, StudyModel wanted, const StudyBounds& intervals) {
@@ -315,7 +314,7 @@ GaugeStudy average_and_range(const Cells& s, std::size_t trials) {
   study.grr = std::hypot(study.ev, study.av);
   study.pv = range_of_means(s, s.by(s.parts(), s.readings().part)) / d2_of_one(s.parts());
   study.tv = std::hypot(study.grr, study.pv);
-  set_categories(study);
+  if (study.grr > 0) set_categories(study, std::sqrt(2.0L) * study.pv / study.grr);
   return study;
 }
 

@@ -178,6 +178,15 @@ TEST_CASE("components of variance worked out by hand") {
   CHECK(nested.pv == std::sqrt(3.0L));  // parts within operators: 16 / 2, less 2, over 2
 }
 
+TEST_CASE("a whole number of distinct categories is not one fewer") {
+  // PV^2 = 49 d^2, GRR^2 = 2 d^2.
+  for (const char* values : {"-1 1 9 11", "-0.3 0.3 2.7 3.3", "-0.01 0.01 0.09 0.11"}) {
+    const Readings parts{
+        .values = decimals(values), .part = {0, 0, 1, 1}, .operators = {}, .parts = 2};
+    CHECK(study_gauge(parts, StudyMethod::Type3, StudyModel::Auto)->ndc == 7);
+  }
+}
+
 TEST_CASE("studies that say nothing are refused with their code") {
   const auto code = [](const Readings& readings, StudyMethod method, StudyModel model) {
     return study_gauge(readings, method, model).error().code;
