@@ -217,7 +217,7 @@ std::optional<Problem> problem_of(const Answer& answer) {
                   .detail = std::string(document->text_of("detail")),
                   .where = std::string(document->text_of("where"))};
   // The detail describes all of an input that cannot be read.
-  if (problem.code.ends_with(".malformed")) return problem;
+  if (!problem.where.empty()) return problem;
   for (const JsonValue& entry : document->member("errors").items) {
     problem.fields.push_back({.pointer = std::string(entry.text_of("pointer")),
                               .line = line_of(entry),

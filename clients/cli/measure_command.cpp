@@ -322,11 +322,12 @@ std::string explain_rows(const Problem& problem, const std::string& input,
         fmt::format("{}:{}: {}: {}\n", input, line_of(field.line.value_or(1)), name, field.detail);
   }
   if (!problem.fields.empty() || !problem.where.starts_with(kLine)) return text;
-  // A text that is no CSV: the detail begins with the line of the body.
+  // A text that cannot be read: the detail begins with the line of the body.
   std::string_view detail = problem.detail;
   if (detail.starts_with(problem.where)) detail.remove_prefix(problem.where.size());
+  detail.remove_prefix(std::min(detail.find_first_not_of(":, "), detail.size()));
   const std::uint64_t line = number_of(std::string_view(problem.where).substr(kLine.size()));
-  return fmt::format("{}:{}:{}\n", input, line_of(line), detail);
+  return fmt::format("{}:{}: {}\n", input, line_of(line), detail);
 }
 
 ExitCode worst_verdict(const VerdictCounts& counts) {

@@ -106,8 +106,13 @@ Result<void> decode_ndjson(std::string_view body, const BatchContext& context,
     auto parsed = parse_json(text);
     if (!parsed) {
       Error error = std::move(parsed).error();
-      error.message = fmt::format("line {}: {}", line, error.message);
       error.where = fmt::format("line {}", line);
+      constexpr std::string_view kAlone = "at line 1";  // the text that was read is one line
+      if (error.message.starts_with(kAlone)) {
+        error.message.replace(0, kAlone.size(), error.where);
+      } else {
+        error.message.insert(0, error.where + ": ");
+      }
       return at_row(std::move(error), row, line);
     }
     reader.begin(row++, line);

@@ -123,4 +123,10 @@ TEST_CASE("a bad row is named by its line in the file") {
   const auto csv = problem_of(problem(
       400, R"({"title":"CSV cannot be read","detail":"line 7 has 3 cells","where":"line 7"})"));
   CHECK(explain_rows(*csv, "night.csv", line_of) == "night.csv:1007: has 3 cells\n");
+  const auto json = problem_of(problem(
+      400,
+      R"({"code":"json.duplicate_key","detail":"line 7: the key \"a\" occurs twice","where":"line 7",
+               "errors":[{"pointer":"/6","line":7,"detail":"line 7: the key \"a\" occurs twice"}]})"));
+  CHECK(explain_rows(*json, "night.ndjson", line_of) ==
+        "night.ndjson:1007: the key \"a\" occurs twice\n");
 }

@@ -170,6 +170,11 @@ TEST_CASE("NDJSON names row and line") {
       decode("{\"designation\":\"25 H7\",\"measured_mm\":25}\n{\n", "application/x-ndjson");
   CHECK(broken.error().code == ErrorCode::JsonMalformed);
   CHECK(broken.error().where == "line 2");
+  CHECK(broken.error().message.starts_with("line 2, column "));
+  const auto repeated =
+      decode("{\"designation\":\"25 H7\",\"measured_mm\":25}\n{\"a\":1,\"a\":2}\n",
+             "application/x-ndjson");
+  CHECK(repeated.error().message == "line 2: the key \"a\" occurs twice");
 }
 
 namespace {
