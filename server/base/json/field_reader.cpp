@@ -47,11 +47,7 @@ void FieldErrors::rollback(Mark mark) {
 
 std::optional<Error> FieldErrors::take() {
   if (empty()) return std::nullopt;
-  Error error = listed(ErrorCode::RequestInvalid, std::move(entries_), count_);
-  const Error& first = error.details.front();
-  if (count_ > 1 && !first.details.empty())  // of a file, where a reader looks for the line
-    error.message.insert(0, fmt::format("line {}: ", first.details.front().where));
-  return error;
+  return listed(ErrorCode::RequestInvalid, std::move(entries_), count_);
 }
 
 FieldReader::FieldReader(const JsonValue& object, std::string pointer, FieldErrors& errors)

@@ -102,6 +102,7 @@ class Measure(ClientTest):
         self.assertTrue(lines[0].startswith("e.csv:8: measured_mm: "), lines)
         self.assertTrue(lines[1].startswith("e.csv:9: tolerance_class: "), lines)
         self.assertIn("lines 7 to 11 are not stored, and 5 rows before them are", lines[-1])
+        self.assertNotIn("line 3", lines[-1])  # of the request
         bad[6:8] = good[6:8]
         bad[8] = "25;H7\n"  # no CSV
         self.client.write("e.csv", HEADER + "".join(bad))

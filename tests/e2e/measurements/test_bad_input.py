@@ -48,7 +48,8 @@ class BadInput(DaemonTest):
         ndjson = json.dumps(GOOD) + "\n" + (json.dumps(row) + "\n") * 3
         for body, media_type, line in ((csv, "text/csv", 3), (ndjson, "application/x-ndjson", 2)):
             problem = self.daemon.measure(body, {"Content-Type": media_type}).json
-            self.assertEqual(problem["detail"], f"line {line}: {problem['errors'][0]['detail']} (and 2 more)")
+            first, *others = problem["errors"]
+            self.assertEqual((first["line"], problem["detail"]), (line, f"{first['detail']} (and {len(others)} more)"))
         column = {"rows": [{"over_mm": 18, "up_to_mm": 10, "upper_um": 5, "lower_um": 9}]}
         problem = self.daemon.request("PUT", "/v1/tables/hole/classes/Own", json.dumps(column), JSON).json
         first, *others = problem["errors"]
