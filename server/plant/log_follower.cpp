@@ -156,6 +156,7 @@ class LogFollower final : public Worker {
     }
     progress_ = *std::move(begun);
     read_to_ = progress_.position;
+    if (const auto end = end_of_log(plant_.measurements)) log_end_ = *end;
     show();
     return true;
   }

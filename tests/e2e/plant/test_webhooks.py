@@ -136,6 +136,15 @@ class Webhooks(Receivers):
         daemon.measure(part(7))
         receiver.wait(lambda: len(receiver.distinct()) == 8)
 
+    def test_the_answer_to_a_replay_counts_what_is_sent_again(self):
+        receiver, daemon = self.receiver(), self.daemon()
+        self.connect(daemon, receiver)
+        first, *_ = self.store(daemon, range(3))
+        self.wait_for_kept_position(daemon, 3)
+        receiver.answer = lambda event: 503
+        answer = daemon.post("/v1/connections/mes/replay", {"from": first}).json
+        self.assertEqual((answer["position"], answer["behind"]), (0, 3))
+
     def test_a_replay_from_before_the_oldest_event_begins_with_that(self):
         receiver, daemon = self.receiver(), self.daemon(*PRIVATE, "--event-retention", "100")
         self.connect(daemon, receiver, events=["measurement.recorded", "note.added"])
