@@ -203,6 +203,13 @@ Word* BlockWords::find(std::string_view name) {
   return found == words.end() ? nullptr : &*found;
 }
 
+std::span<Word> BlockWords::own() {
+  return {words.begin(), std::find_if(words.begin(), words.end(), [](const Word& word) {
+            const auto m = word.name == "M" ? read_number<unsigned>(word.value) : std::nullopt;
+            return m && klartext::has_arguments(*m);
+          })};
+}
+
 std::string_view read_value(Lexer& in) {
   const char* begin = in.skip_blanks();
   const bool has_sign = in.peek() == '+' || in.peek() == '-';

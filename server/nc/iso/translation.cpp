@@ -341,16 +341,10 @@ class Translator {
   }
 
   void motion(BlockWords& words) {
-    constexpr std::string_view kWithArguments[] = {"94",  "103", "118", "120", "124",
-                                                   "128", "138", "140", "197"};
     int axes = 0;
     bool has_coordinates = false;
     bool moves = words.has_path || !words.compensation.empty();
-    for (const Word& word : words.words) {
-      // Words after one of these M functions belong to it.
-      if (word.name == "M" &&
-          std::count(std::begin(kWithArguments), std::end(kWithArguments), word.value) != 0)
-        break;
+    for (const Word& word : words.own()) {
       if (word.used || word.name == "M") continue;
       axes += word.is_axis() ? 1 : 0;
       has_coordinates = has_coordinates || word.is_axis() || word.name == "R" || word.name == "H";
@@ -371,8 +365,7 @@ class Translator {
     if (way->addition == "DR" && addition.empty())
       return fail("the arc has no direction: write G02 or G03, or G12 or G13");
     const bool polar = way->number >= 10;
-    for (Word& word : words.words) {
-      if (word.name == "M") break;
+    for (Word& word : words.own()) {
       if (polar && word.name == "H") word.name = "PA";
       if (polar && word.name == "R") word.name = "PR";
       if (head == "C" && word.name == "R") head = "CR";
@@ -394,8 +387,7 @@ class Translator {
 
   void path(BlockWords& words, std::string_view head, std::string_view addition,
             std::string_view radius) {
-    for (Word& word : words.words) {
-      if (word.name == "M") break;
+    for (Word& word : words.own()) {
       if (word.name != "F" || addition != "FMAX" || word.used) continue;
       // A feed next to rapid applies to the blocks that follow.
       line_.start_line();
@@ -404,8 +396,7 @@ class Translator {
     }
     line_.start_line();
     line_.put(head);
-    for (Word& word : words.words) {
-      if (word.name == "M") break;
+    for (Word& word : words.own()) {
       const bool is_coordinate =
           word.is_axis() || word.name == "R" || word.name == "PR" || word.name == "PA";
       if (is_coordinate && !std::exchange(word.used, true)) line_.put(word);

@@ -77,6 +77,8 @@ struct BlockWords {
 
   /// The first word of that name that is not used, or nullptr.
   Word* find(std::string_view name);
+  /// Without the words that belong to an M function: `M128 F1000`.
+  std::span<Word> own();
   template <class Test>
   bool any(Test test) const {
     for (const Word& word : words) {

@@ -33,7 +33,14 @@ constexpr MArguments kMArguments[] = {
 
 constexpr std::uint32_t kLargestM = 9999;
 
+const MArguments* arguments_of(unsigned m) {
+  const auto row = std::ranges::find(kMArguments, m, &MArguments::m);
+  return row == std::end(kMArguments) ? nullptr : &*row;
+}
+
 }  // namespace
+
+bool has_arguments(unsigned m) { return arguments_of(m) != nullptr; }
 
 void BlockReader::open(std::size_t begin, std::size_t end) {
   Lexer::open(begin, end);
@@ -231,10 +238,9 @@ void WordReader::parse_m_number(Word& word) {
   arguments_ = LetterSet();
   // After an M function, the general way separates its arguments from words of the block.
   plain_ = LetterSet();
-  for (const MArguments& row : kMArguments) {
-    if (row.m != number) continue;
-    arguments_ = row.letters;
-    arguments_are_bare_ = row.bare;
+  if (const MArguments* row = arguments_of(number); row != nullptr) {
+    arguments_ = row->letters;
+    arguments_are_bare_ = row->bare;
   }
 }
 

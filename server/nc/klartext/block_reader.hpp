@@ -114,4 +114,7 @@ class WordReader {
 Slice<Word> parse_words(BlockReader& in, LetterSet allowed, LetterSet bare = LetterSet(),
                         LetterSet incremental = kIncremental);
 
+/// Whether words that follow this M function belong to it, as F of `M128 F1000`.
+bool has_arguments(unsigned m);
+
 }  // namespace fitgauge::klartext

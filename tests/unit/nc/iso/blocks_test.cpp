@@ -57,6 +57,8 @@ TEST_CASE("Straight lines") {
          {"N5 G01 G44 X+46 F MAX *", "5 L X+46 R- FMAX"},
          {"N5 G40 *\nN6 F250 *\nN7 M3 M8 *", "5 L R0\n6 L F250\n7 M3 M8"},
          {"N5 G00 Z+5 M140 MB50 F200 *", "5 L Z+5 FMAX M140 MB50 F200"},
+         {"N5 M3 F200 G01 Y+2 *", "5 L Y+2 M3 F200"},
+         {"N5 M128 F200 G00 Y+2 *", "5 L FMAX M128 F200 Y+2"},
          {"N5 G90 *", "5"},
          {"N9 G01 ~\n X+1 ~\n Y+2 *", "9 L X+1 Y+2"}});
 }
@@ -68,6 +70,8 @@ TEST_CASE("Arcs and polar coordinates") {
          {"N10 G02 X+1 Y+2 I+0 J+0 F100 *", "10 CC X+0 Y+0\n10 C X+1 Y+2 DR- F100"},
          {"N10 G03 X+1 Y+2 R-20 *\nN20 G05 X+5 R+3", "10 CR X+1 Y+2 R-20 DR+\n20 CR X+5 R+3 DR+"},
          {"N10 G06 X+1 Y+2 *", "10 CT X+1 Y+2"},
+         {"N10 G02 X+1 M3 R+20 Y+2 *", "10 CR X+1 R+20 Y+2 DR- M3"},
+         {"N10 M3 H+45 G11 R+10 *", "10 LP PA+45 PR+10 M3"},
          {"N10 G10 R+10 H+45 *", "10 LP PR+10 PA+45 FMAX"},
          {"N10 G11 G42 R+10 G91 H+45 F90 *", "10 LP PR+10 IPA+45 RR F90"},
          {"N10 G13 G91 H+1080 Z+5 *\nN20 G12 G90 H+0\nN30 G15 H+5",
