@@ -284,13 +284,18 @@ Result<std::string> chart(JsonValue& body) {
 }
 
 Result<std::string> pairing(const JsonValue& body) {
-  const auto has_only = [&body](std::string_view other, std::string_view name) {
-    return body.find(other) != nullptr && body.find(name) == nullptr;
-  };
   FieldErrors errors;
   PairingOrder order;
-  if (has_only("holes_mm", order.holes_name)) order.holes_name = "holes_mm";
-  if (has_only("shafts_mm", order.shafts_name)) order.shafts_name = "shafts_mm";
+  const auto choose = [&](std::string_view& name, std::string_view other) {
+    if (body.find(other) == nullptr) return;
+    if (body.find(name) != nullptr)
+      errors.add(ErrorCode::FieldConflict, fmt::format("/{}", other),
+                 fmt::format("give {} or {}, not both", name, other));
+    name = other;
+  };
+  choose(order.holes_name, "holes_mm");
+  choose(order.shafts_name, "shafts_mm");
+  if (auto error = errors.take()) return *std::move(error);
   read_body(body, "", errors, order);
   if (auto error = errors.take()) return *std::move(error);
   auto made = metrology::pair(order.holes, order.shafts, order.target);

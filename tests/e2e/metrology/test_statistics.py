@@ -295,6 +295,9 @@ class Statistics(DaemonTest):
                 body = {empty + ending: [], other + ending: [25], "target_clearance_um": 8}
                 problem = self.assert_problem(self.daemon.post("/v1/statistics/pairing", body), 422, "request.invalid")
                 self.assertEqual([each["pointer"] for each in problem["errors"]], [f"/{empty}{ending}"])
+        both = {"holes": [25], "holes_mm": [25], "shafts": [25], "target_clearance_um": 8}
+        problem = self.assert_problem(self.daemon.post("/v1/statistics/pairing", both), 422, "request.invalid")
+        self.assertEqual([(each["code"], each["pointer"]) for each in problem["errors"]], [("field.conflict", "/holes_mm")])
 
     def test_what_is_refused(self):
         capability = {"values": [1, 2, 3], "lower": 0, "upper": 4}
