@@ -36,6 +36,8 @@ void report_bug(std::string_view place, std::string_view what) noexcept {
   report_in_use.load()(place, what);
 }
 
+Error shutting_down() { return {ErrorCode::ShuttingDown, "the service is shutting down"}; }
+
 Thread::Thread(std::string_view place, Body body)
     : thread_([place, body = std::move(body)](const std::stop_token& stop) {
         while (!guarded(place, [&] { body(stop); }) && wait_unless_stopped(stop, kRest)) {

@@ -29,6 +29,9 @@ bool guarded(std::string_view place, Function&& function) noexcept {
   return false;
 }
 
+/// The error of work that a stop ends or refuses.
+Error shutting_down();
+
 /// Waits for this time, or until a stop is requested. @returns false after a stop.
 bool wait_unless_stopped(const std::stop_token& stop, std::chrono::nanoseconds time);
 

@@ -44,14 +44,12 @@ Error JobPool::full() {
   return {ErrorCode::Overloaded, "too much work of this kind is waiting: try again soon"};
 }
 
-Error JobPool::ended() { return {ErrorCode::ShuttingDown, "the service is shutting down"}; }
-
 Error JobPool::internal(const std::exception& bug) {
   return {ErrorCode::Internal, std::string("a request failed: ") + bug.what()};
 }
 
 Error JobPool::beyond_bound(Allowance::Spent spent) {
-  if (spent == Allowance::Spent::Stop) return ended();
+  if (spent == Allowance::Spent::Stop) return shutting_down();
   const std::string_view what = spent == Allowance::Spent::Time ? "time" : "memory";
   return {ErrorCode::FiguresLimit,
           "the figure needs more " + std::string(what) +

@@ -141,11 +141,11 @@ class JobPool {
   void run(Compute compute, Done done) {
     const bool is_queued = pool_
                                .submit([this, compute = std::move(compute), done]() mutable {
-                                 if (is_called_off()) return done(ended());
+                                 if (is_called_off()) return done(shutting_down());
                                  bounded(compute, done);
                                })
                                .has_value();
-    if (!is_queued) done(is_called_off() ? ended() : full());
+    if (!is_queued) done(is_called_off() ? shutting_down() : full());
   }
 
   /// Refuses waiting and later jobs, and ends bounded jobs that run. Waits for their threads.
@@ -158,7 +158,6 @@ class JobPool {
 
  private:
   static Error full();
-  static Error ended();
   static Error internal(const std::exception& bug);
   static Error beyond_bound(Allowance::Spent spent);
 

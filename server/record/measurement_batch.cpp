@@ -2,6 +2,7 @@
 
 #include "base/csv.hpp"
 #include "base/json/json_value.hpp"
+#include "base/thread.hpp"
 #include "record/measurement_row_reader.hpp"
 
 namespace fitgauge::api {
@@ -213,8 +214,7 @@ void take_full(MeasurementBatch& batch, const BatchContext& context, const Field
 Result<void> decode_measurements(std::string_view body, std::string_view media_type,
                                  const BatchContext& context, MeasurementBatch& batch) {
   auto decoded = decode(body, media_type, context, batch);
-  if (context.stop.stop_requested())
-    return Error{ErrorCode::ShuttingDown, "the service is shutting down"};
+  if (context.stop.stop_requested()) return shutting_down();
   return decoded;
 }
 

@@ -1,5 +1,6 @@
 #include "plant/folder/folder_in.hpp"
 
+#include "base/thread.hpp"
 #include "formats/sheet/imported_rows.hpp"
 #include "http/request.hpp"
 #include "service/measurements/gauges_in_use.hpp"
@@ -38,8 +39,7 @@ template <class Source>
 Result<void> append_all(Source& source, FileRows& rows) {
   std::size_t count = 0;  // of rows with text, where each call appends one
   for (;;) {
-    if (rows.stop.stop_requested())
-      return Error{ErrorCode::ShuttingDown, "the service is shutting down"};
+    if (rows.stop.stop_requested()) return shutting_down();
     const std::size_t before = rows.text.size();
     const auto more = TRY(source.append(rows.text, rows.lines));
     if (!more) return {};

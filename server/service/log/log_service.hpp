@@ -189,7 +189,6 @@ class LogService {
   Result<void> keep(const TreeNames& tree, const std::string& note) const;
   void tell(std::string_view event, const std::string& detail) const;
   void end_waiters(std::unique_lock<std::mutex>& lock);
-  static Error shutting_down() { return {ErrorCode::ShuttingDown, "the service is shutting down"}; }
   Result<Proof> read_proof(const Stores& stores, const RecordName& name);
   std::shared_ptr<const Head> countersigned(const Stores& stores, std::int64_t origin) const;
 

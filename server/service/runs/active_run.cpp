@@ -14,8 +14,6 @@ struct Seen {
   std::vector<store::Run> ended;
 };
 
-Error no_longer() { return {ErrorCode::ShuttingDown, "the service is shutting down"}; }
-
 }  // namespace
 
 RunState ActiveRun::state() const {
@@ -135,7 +133,7 @@ void SharedRuns::stop() {
     const std::lock_guard lock(mutex_);
     stopped_ = true;
   }
-  end(followed(), no_longer());
+  end(followed(), shutting_down());
 }
 
 std::shared_ptr<ActiveRun> SharedRuns::follow(const StoredRun& run) {
@@ -150,7 +148,7 @@ std::shared_ptr<ActiveRun> SharedRuns::follow(const StoredRun& run) {
   auto made = std::make_shared<ActiveRun>(run.id, run.origin, std::move(order), run.created_at);
   if (run.status != RunState::Queued) made->started();
   if (stopped_) {
-    made->finished(no_longer());
+    made->finished(shutting_down());
   } else {
     place = made;
   }

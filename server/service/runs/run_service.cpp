@@ -10,8 +10,6 @@ namespace {
 using interpreter::MessageKind;
 using interpreter::RunStatus;
 
-Error stopping() { return {ErrorCode::ShuttingDown, "the service is shutting down"}; }
-
 }  // namespace
 
 RunService::RunService(const Records& records, JobPool& orders, RunServiceOptions options)
@@ -59,7 +57,7 @@ void RunService::stop() {
 Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
                                                      const std::optional<IdempotencyScope>& scope,
                                                      const Accepted& accepted) {
-  if (orders_.is_called_off()) return stopping();
+  if (orders_.is_called_off()) return shutting_down();
   const std::lock_guard starting(starting_);
   {
     const std::lock_guard lock(mutex_);
@@ -98,7 +96,7 @@ Result<std::shared_ptr<ActiveRun>> RunService::queue(std::shared_ptr<ActiveRun> 
   }
   if (!is_queued) {
     end(*active, without_moves(unstarted(RunStatus::Failed, MessageKind::Error,
-                                         "the service is shutting down", active->program())));
+                                         shutting_down().message, active->program())));
   }
   return active;
 }
