@@ -1,13 +1,13 @@
 #include "cli/measure_command.hpp"
 
 #include "cli/local_files.hpp"
-#include "formats/sheet/imported_rows.hpp"
+#include "formats/imported_rows.hpp"
 
 namespace fitgauge::cli {
 
 struct RowInput::State {
   std::string name;
-  sheet::ImportedRows source;
+  ImportedRows source;
   std::string rows = source.header();  ///< of which `taken` bytes are read
   std::size_t taken = 0;
   std::vector<std::uint32_t> lines{};
@@ -115,9 +115,9 @@ Outcome<RowInput> RowInput::open(const Context& context, const MeasureOptions& o
   const auto file = std::make_shared<InputFile>(
       TRY(is_read_twice ? open_to_read_again(options.input) : InputFile::open(options.input)));
   const std::string name = options.input == "-" ? "standard input" : options.input;
-  auto source = sheet::ImportedRows::open(
-      options.input, reading(file), is_read_twice ? reading_again(file) : reading(file),
-      {std::move(table), std::numeric_limits<std::size_t>::max()});
+  auto source = ImportedRows::open(options.input, reading(file),
+                                   is_read_twice ? reading_again(file) : reading(file),
+                                   {std::move(table), std::numeric_limits<std::size_t>::max()});
   if (!source) return cannot_read(name, source.error());
   return RowInput(std::make_shared<State>(State{.name = name, .source = *std::move(source)}));
 }

@@ -1,7 +1,7 @@
 #include "plant/folder/folder_in.hpp"
 
 #include "base/thread.hpp"
-#include "formats/sheet/imported_rows.hpp"
+#include "formats/imported_rows.hpp"
 #include "http/request.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 #include "service/measurements/measurement_service.hpp"
@@ -82,8 +82,8 @@ Result<FileRows> read_file_rows(const aqdef::MeasurementOptions& options,
     TRY(append_dfx(options, file, *description, rows));
     return rows;
   }
-  auto source = TRY(sheet::ImportedRows::open(file_name, file.from_begin(), file.from_begin(),
-                                              {options, api::kMostRows}));
+  auto source = TRY(ImportedRows::open(file_name, file.from_begin(), file.from_begin(),
+                                       {options, api::kMostRows}));
   rows.text += source.header();
   TRY(append_all(source, rows));
   TRY(source.check());

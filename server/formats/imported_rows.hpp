@@ -2,7 +2,7 @@
 
 #include "formats/qif/qif.hpp"
 
-namespace fitgauge::sheet {
+namespace fitgauge {
 
 /// The rows of a file for /v1/measurements. Its name tells whether it is a QIF, a DFQ, NDJSON or a
 /// table. Unusable after an error.
@@ -18,12 +18,12 @@ class ImportedRows {
     }
     if (aqdef::is_dfq(file_name))
       return ImportedRows(aqdef::MeasurementCsv(std::move(again), std::move(options)));
-    if (is_ndjson(file_name)) {
-      auto rows = TRY(NdjsonRows::open(first, std::move(again), options.encoding,
-                                       std::move(options.limits_of)));
+    if (sheet::is_ndjson(file_name)) {
+      auto rows = TRY(sheet::NdjsonRows::open(first, std::move(again), options.encoding,
+                                              std::move(options.limits_of)));
       return ImportedRows(std::move(rows));
     }
-    auto rows = TRY(ShopRows::open(first, std::move(again), std::move(options)));
+    auto rows = TRY(sheet::ShopRows::open(first, std::move(again), std::move(options)));
     return ImportedRows(std::move(rows));
   }
 
@@ -57,11 +57,12 @@ class ImportedRows {
   }
 
  private:
-  using Source = std::variant<aqdef::MeasurementCsv, qif::QifRows, ShopRows, NdjsonRows>;
+  using Source =
+      std::variant<aqdef::MeasurementCsv, qif::QifRows, sheet::ShopRows, sheet::NdjsonRows>;
 
   explicit ImportedRows(Source source) : source_(std::move(source)) {}
 
   Source source_;
 };
 
-}  // namespace fitgauge::sheet
+}  // namespace fitgauge
