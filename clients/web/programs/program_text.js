@@ -18,6 +18,8 @@ const LONGEST_CHECKED = 1_000_000;
 
 /** Texts that are not stored yet, {text, tag} by path: they outlive the view, not the window. */
 const drafts = new Map();
+/** The views that are not left: a file that one stores may be open in the next. */
+const views = new Set();
 addEventListener('beforeunload', (event) => { if (drafts.size) event.preventDefault(); });
 
 /** A file as it is on the disk; where it is not there, or not any more, what is not stored of it. */
@@ -55,7 +57,9 @@ export class ProgramText {
     this.looks = ['table', 'text'].map((look) => h('button', { type: 'button', 'aria-pressed': 'false', onclick: () => this.#look(look === 'table' && this.table.show()) }, t(`table.as_${look}`)));
     this.switch = h('div.switch', { role: 'group', 'aria-label': t('table.title'), hidden: true }, this.looks);
     this.element = h('div.texts', this.switch, h('div.listing', this.table.element, this.editor.element, this.note, this.list), this.called.element);
+    views.add(this);
     leaving.addEventListener('abort', () => {
+      views.delete(this);
       clearTimeout(this.#timer);
       this.editor.destroy();
       this.called.destroy();
@@ -155,9 +159,7 @@ export class ProgramText {
     const draft = drafts.get(path);
     if (draft?.text === text) drafts.delete(path);
     else if (draft) draft.tag = tag;
-    if (this.path !== path) return;
-    Object.assign(this, { tag, stored: text });
-    this.#remember();
+    for (const view of views) if (view.path === path) view.#took(tag, text);
   }, () => `${this.path}\n${this.editor.text}`);
 
   /** Forgets what is not stored of a file. */
@@ -168,6 +170,11 @@ export class ProgramText {
   #edited() {
     this.#remember();
     this.#checkSoon(PAUSE_MS);
+  }
+
+  #took(tag, stored) {
+    Object.assign(this, { tag, stored });
+    this.#remember();
   }
 
   #remember() {
