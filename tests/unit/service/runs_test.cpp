@@ -1,3 +1,5 @@
+#include <latch>
+
 #include "nc/program/program_cache.hpp"
 #include "service/runs/active_run.hpp"
 #include "service_fixture.hpp"
@@ -153,21 +155,25 @@ TEST_CASE("figures that keep every thread and place hold up no run; orders that 
   Service service;
   service.program("Q1 = 1");
   std::promise<void> let_go;
-  const auto fill = [wait = let_go.get_future().share()](JobPool& pool) {
+  const auto fill = [wait = let_go.get_future().share()](JobPool& pool, int threads) {
+    const auto idle = std::make_shared<std::latch>(threads);
+    for (int i = 0; i < threads; ++i) {
+      pool.run([idle,
+                wait]() -> Result<void> { return idle->count_down(), wait.wait(), Result<void>(); },
+               [](const Result<void>&) {});
+    }
+    idle->wait();  // else a thread takes a job from the full queue later
     const auto is_full = std::make_shared<std::atomic<bool>>(false);
-    const auto held = [wait]() -> Result<void> {
-      wait.wait();
-      return {};
-    };
     while (!*is_full) {
-      pool.run(held, [is_full](const Result<void>& made) {
-        if (!made) *is_full = true;
-      });
+      pool.run([wait]() -> Result<void> { return wait.wait(), Result<void>(); },
+               [is_full](const Result<void>& made) {
+                 if (!made) *is_full = true;
+               });
     }
   };
-  fill(service->jobs().figures);
+  fill(service->jobs().figures, 4);
   CHECK(service.run(Service::order()).result.status == RunStatus::Completed);
-  fill(service->jobs().orders);
+  fill(service->jobs().orders, 2);
   CHECK(service.start(Service::order()).error().code == ErrorCode::Overloaded);
   let_go.set_value();
 }
